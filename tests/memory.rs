@@ -21,7 +21,7 @@ use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::case::checkpoint::Checkpoints;
 use contact_dma::sweep::plan::{EngineKind, Method, SweepPlan};
 use contact_dma::sweep::store::Store;
-use contact_dma::sweep::store::archive::Purpose;
+use contact_dma::sweep::store::records::Purpose;
 
 /// Counts the bytes held, the most of them, and those ever taken.
 struct Counting;
@@ -192,7 +192,10 @@ fn a_record_takes_its_own_bytes_however_long_the_plan_and_however_many_there_are
     let plan = format!("title = {:?}\n", "long".repeat(100_000));
     let store = Store::open(folder.path(), &plan, false).unwrap();
     let mut save = || {
-        store.save_case(Purpose::Sweep, &case, &record).unwrap();
+        store
+            .records()
+            .insert(Purpose::Sweep, &case, &record)
+            .unwrap();
         case.angular_frequency_rad_per_s *= 1.1;
     };
     // The first takes what all share.

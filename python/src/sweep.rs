@@ -16,9 +16,9 @@ use contact_dma::sweep::plan::{Case, SweepPlan};
 use contact_dma::sweep::record::{CaseRecord, RecordedCycle};
 use contact_dma::sweep::search::peak::Peak;
 use contact_dma::sweep::search::run::{self, Options, Outcome, Progress};
-use contact_dma::sweep::store::archive::{Archive, MemoryArchive};
 use contact_dma::sweep::store::merge;
 use contact_dma::sweep::store::provenance::{BUILD, Circumstances, Stopwatch};
+use contact_dma::sweep::store::{Archive, records};
 use contact_dma::sweep::store::{RESOLVED, Store};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
@@ -33,15 +33,15 @@ use crate::{arrays, blocks, failure};
 
 /// Where the records of a result are.
 enum Records {
-    Memory(MemoryArchive),
+    Memory(records::Records),
     Folder(Store),
 }
 
 impl Records {
     fn archive(&self) -> Archive<'_> {
         match self {
-            Self::Memory(memory) => Archive::Memory(memory),
-            Self::Folder(store) => Archive::Folder(store),
+            Self::Memory(memory) => memory.into(),
+            Self::Folder(store) => store.into(),
         }
     }
 }
@@ -237,7 +237,7 @@ impl Sweep {
         let module = py.import("contact_dma._contact_dma")?;
         match &this.records {
             Records::Memory(memory) => {
-                let bytes = memory.to_bytes().map_err(failure::of_run)?;
+                let bytes = memory.to_bytes();
                 let arguments = (
                     BUILD,
                     resolved_text(&this.plan),
@@ -270,7 +270,7 @@ impl Sweep {
             return Ok(None);
         };
         let mut record = record.clone();
-        let loaded = store.load_cycle(&mut record);
+        let loaded = store.records().load_cycle(&mut record);
         loaded.map_err(|error| failure::of_store(&error))?;
         let cycle = record.result.map(|result| result.cycle);
         Ok(cycle.filter(RecordedCycle::is_held))
@@ -375,7 +375,7 @@ pub fn sweep(
     let interrupt = Arc::new(AtomicBool::new(false));
     let setup = Setup::new(plan).map_err(failure::of_value)?;
     let setup = setup.interrupted_by(Arc::clone(&interrupt));
-    let memory = MemoryArchive::default();
+    let memory = records::Records::default();
     let counter = Counter::default();
     let cases: Vec<Case> = setup.plan().cases();
     counter.total.store(cases.len(), Ordering::Relaxed);
@@ -434,7 +434,7 @@ pub fn restore_sweep(
         material: None,
         indenter: shape.as_ref().map(|shape| shape.get().indenter()),
     };
-    let memory = MemoryArchive::from_bytes(records).ok_or_else(failure::of_other_build)?;
+    let memory = records::Records::from_bytes(records).ok_or_else(failure::of_other_build)?;
     let text = match &shape {
         // The indenter is a value.
         Some(_) => blocks::without(resolved, "indenter")?,

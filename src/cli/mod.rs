@@ -255,6 +255,9 @@ fn advice(remedy: Remedy) -> &'static str {
         Remedy::OtherFolderOrWait => {
             "choose another folder with --out, or wait until it has ended (--force does not replace what runs)"
         }
+        Remedy::OtherFolderOrShards => {
+            "choose another folder with --out, wait until it has ended, or run its parts with --shard 1/2 and --shard 2/2"
+        }
         Remedy::OtherFolderOrForce => {
             "choose another folder with --out, or replace them with --force"
         }

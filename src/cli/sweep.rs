@@ -35,7 +35,7 @@ Examples:
   contact-dma sweep sweeps/pmma.toml --shard 2/8
 
 The same command again resumes an interrupted sweep: cases with intact records are read, not
-computed, and a long case continues from its last checkpoint.
+computed, and a long case continues after the last of its resolutions that was solved.
 
 Written to the output folder: index.html (one page of everything, to look at or to send),
 sweep.csv (one row per frequency), loops/ (the stabilised cycles), pressures/ and work/
@@ -77,7 +77,7 @@ pub(super) struct SweepFlags {
     /// Print what was done: instants, iterations and convolutions per instant
     #[arg(long)]
     stats: bool,
-    /// Seconds between checkpoints of a long case
+    /// Seconds between two writes of what a long case has solved
     #[arg(long, value_name = "SECONDS", default_value_t = checkpoint_file::EVERY.as_secs())]
     checkpoint_every: u64,
     /// Replace the results of a different sweep, or of a newer program, in the output folder, or add to a folder that has files of

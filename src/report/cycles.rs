@@ -258,7 +258,7 @@ fn with_cycle(
 ) -> Result<(), StoreError> {
     let mut record = Cow::Borrowed(record);
     if record.result.as_ref().is_some_and(|r| !r.cycle.is_held()) {
-        store.load_cycle(record.to_mut())?;
+        store.records().load_cycle(record.to_mut())?;
     }
     let nothing = RecordedCycle::default();
     take(&Case {

@@ -29,7 +29,7 @@ pub fn load_drawn_cycles(
     shown.extend(page::shown(plan, outcome)?);
     for record in &mut outcome.records {
         if shown.contains(&record.index) {
-            store.load_cycle(record)?;
+            store.records().load_cycle(record)?;
         }
     }
     Ok(())

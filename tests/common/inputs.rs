@@ -25,9 +25,8 @@ use contact_dma::sweep::plan::scenario;
 use contact_dma::sweep::plan::{Case, EngineKind};
 use contact_dma::sweep::search::run::Outcome;
 use contact_dma::sweep::store::Store;
-use contact_dma::sweep::store::archive::{Kept, Purpose};
-use contact_dma::sweep::store::packed_record;
-use contact_dma::sweep::store::segment;
+use contact_dma::sweep::store::log;
+use contact_dma::sweep::store::records::{self, Kept, Purpose};
 use sha2::{Digest, Sha256};
 use tempfile::TempDir;
 
@@ -317,29 +316,19 @@ impl Folder {
         self.folder.path().join(name)
     }
 
-    /// The record of a solved case, as text.
-    pub fn whole_case(&self) -> String {
-        let record = self.setup.run(&self.case, &AtomicBool::new(false)).unwrap();
-        serde_json::to_string(&record).unwrap()
-    }
-
     /// The outcome of a folder that holds this segment.
     fn load(&self, segment: &[u8]) -> Option<Outcome> {
         let _ = fs::remove_dir_all(self.path("records"));
         fs::create_dir(self.path("records")).unwrap();
         fs::write(self.path("records/any.segment"), segment).unwrap();
         let (store, _) = Store::reopen_to_read(self.folder.path()).unwrap();
-        store.look().unwrap();
-        match store.load_case(Purpose::Sweep, &self.case) {
-            Ok(Kept::Intact(mut record)) => {
-                store.load_cycle(&mut record).unwrap();
-                Some(Outcome {
-                    records: vec![*record],
-                    peaks: Vec::new(),
-                    peak_problems: Vec::new(),
-                    interrupted: true,
-                })
-            }
+        match store.records().load(Purpose::Sweep, &self.case, true) {
+            Ok(Kept::Intact(record)) => Some(Outcome {
+                records: vec![*record],
+                peaks: Vec::new(),
+                peak_problems: Vec::new(),
+                interrupted: true,
+            }),
             Ok(Kept::Absent | Kept::OfAnotherBuild { .. } | Kept::Unusable { .. }) | Err(_) => None,
         }
     }
@@ -362,9 +351,7 @@ impl Records {
             .run(&folder.case, &AtomicBool::new(false))
             .unwrap();
         assert!(record.result.is_some(), "{:?}", record.message);
-        let saved = folder
-            .store
-            .save_case(Purpose::Sweep, &folder.case, &record);
+        let saved = (folder.store.records()).insert(Purpose::Sweep, &folder.case, &record);
         saved.unwrap();
         let segment = fs::read_dir(folder.path("records"))
             .unwrap()
@@ -372,8 +359,8 @@ impl Records {
             .unwrap();
         let whole = fs::read(segment.unwrap().path()).unwrap();
         let mut content = Vec::new();
-        let meet = |met: segment::Met<'_>| {
-            if let segment::Met::Record { content: of, .. } = met {
+        let meet = |met: log::Met<'_>| {
+            if let log::Met::Record { content: of, .. } = met {
                 content = of.to_vec();
             }
         };
@@ -381,8 +368,8 @@ impl Records {
             .unwrap()
             .next()
             .unwrap();
-        segment::read(&path.unwrap().path(), 0, meet).unwrap();
-        let packed = content.len() - packed_record::pack(&record).unwrap().len();
+        log::read(&path.unwrap().path(), 0, meet).unwrap();
+        let packed = content.len() - records::encoded(&record).unwrap().len();
         Self {
             folder,
             whole,
@@ -396,33 +383,15 @@ impl Records {
         &self.whole
     }
 
-    /// The case of a whole record.
-    pub fn whole_case(&self) -> String {
-        self.folder.whole_case()
-    }
-
     /// What is packed in a whole record.
     pub fn whole_packed(&self) -> &[u8] {
         &self.content[self.packed..]
     }
 
-    /// A case that can be read is stored, and refused as that of something else, or makes tables and a page.
-    pub fn case(&self, case: &[u8]) -> bool {
-        let Ok(record) = serde_json::from_slice(case) else {
-            return false;
-        };
-        let packed = packed_record::pack(&record).unwrap();
-        assert_eq!(
-            packed_record::numbers(&packed),
-            Some(record.without_cycle())
-        );
-        self.packed(&packed)
-    }
-
     /// Whatever is packed under a right checksum is refused, or makes tables and a page.
     pub fn packed(&self, packed: &[u8]) -> bool {
         let content = [&self.content[..self.packed], packed].concat();
-        let outcome = self.folder.load(&segment::sealed(&content).unwrap());
+        let outcome = self.folder.load(&log::framed(&content).unwrap());
         outcome.is_some_and(|outcome| self.is_told(&outcome))
     }
 

@@ -14,7 +14,9 @@ pub fn results(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     files.retain(|(path, _)| {
         let name = path.file_name().unwrap().to_str().unwrap();
         // The lock file lists what was written last, where other processes were at work at the end.
-        !name.starts_with("run") && !path.starts_with("records") && name != ".contact-dma.lock"
+        !name.starts_with("run")
+            && !path.starts_with("records")
+            && !name.starts_with(".contact-dma.")
     });
     // Records lie in segments in the order in which they were finished, and some of them twice.
     let mut records = segments::read(folder);

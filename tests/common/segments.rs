@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use contact_dma::sweep::store::segment::{self, Met};
+use contact_dma::sweep::store::log::{self, Met};
 use serde::{Deserialize, Serialize};
 
 /// One record: what its heading says, and the rest.
@@ -57,7 +57,7 @@ pub fn read(out: &Path) -> Vec<Stored> {
                 all.push(Stored { heading, record });
             }
         };
-        segment::read(&path, 0, meet).unwrap();
+        log::read(&path, 0, meet).unwrap();
     }
     // Positive numbers are in the order of their bits.
     let place = |stored: &Stored| {
@@ -77,7 +77,7 @@ pub fn replace(out: &Path, records: &[Stored]) -> Vec<(usize, usize)> {
     let (mut bytes, mut places) = (Vec::new(), Vec::new());
     for stored in records {
         let from = bytes.len();
-        bytes.extend(segment::sealed(&stored.content()).unwrap());
+        bytes.extend(log::framed(&stored.content()).unwrap());
         places.push((from, bytes.len()));
     }
     fs::create_dir_all(out.join("records")).unwrap();

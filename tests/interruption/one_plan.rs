@@ -256,14 +256,16 @@ fn a_run_that_is_replaced_where_locks_reach_nobody_stops_and_leaves_the_folder_t
     let long: Vec<&str> = long.into_iter().chain(set).collect();
     let replaced = start(&long, &out);
     wait_for("the sweep did not start", || {
-        out.join("resolved.toml").exists()
+        out.join(".contact-dma.compute.lock").exists()
     });
     stop(&replaced);
     assert!(!out.join("records").exists(), "too quick");
-    let lock = out.join(".contact-dma.lock");
-    let content = fs::read(&lock).unwrap();
-    fs::remove_file(&lock).unwrap();
-    fs::write(&lock, content).unwrap();
+    for lock in [".contact-dma.lock", ".contact-dma.compute.lock"] {
+        let lock = out.join(lock);
+        let content = fs::read(&lock).unwrap();
+        fs::remove_file(&lock).unwrap();
+        fs::write(&lock, content).unwrap();
+    }
     sweep(&file, &out, &["--force"]).success();
     signal(&replaced, "-CONT");
     let end = replaced.wait_with_output().unwrap();

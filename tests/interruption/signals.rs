@@ -86,8 +86,8 @@ fn a_file_that_grows_beyond_its_limit_is_an_error_and_not_the_end() {
     let folder = TempDir::new().unwrap();
     write(&folder, "cells.toml", &on_cells(16));
     let sweep = ["sweep", "cells.toml", "--quiet", "--out", "out"];
-    // Sixteen blocks of 512 bytes.
-    let child = after("ulimit -f 16;", &sweep, folder.path());
+    // Blocks of 512 bytes.
+    let child = after("ulimit -f 48;", &sweep, folder.path());
     let ended = child.wait_with_output().unwrap();
     let said = String::from_utf8(ended.stderr).unwrap();
     assert_eq!(ended.status.code(), Some(1), "{said}");

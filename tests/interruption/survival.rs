@@ -49,13 +49,12 @@ amplitude = "5 N"
 [sweep]
 angular_frequency = ["20 rad/s"]
 [cycle]
-steps = 100
+steps = 200
 method = "march"
 tolerance = 1e-9
 max_cycles = 100000
-error_bars = false
 [solver]
-springs = 100
+springs = 160
 "#;
 
 /// A sweep that nothing disturbs.
@@ -268,12 +267,11 @@ fn a_long_case_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
     let folder = TempDir::new().unwrap();
     let searched = LONG
         .replace("method = \"march\"\ntolerance = 1e-9", "tolerance = 1e-12")
-        .replace("error_bars = false", "")
-        .replace("steps = 100", "steps = 20000");
+        .replace("steps = 200", "steps = 100000");
     let cells = LONG
-        .replace("20 rad/s", "1 rad/s")
-        .replace("steps = 100", "steps = 24")
-        .replace("springs = 100", "engine = \"half-space\"\ncells = 16");
+        .replace("20 rad/s", "2 rad/s")
+        .replace("steps = 200", "steps = 48")
+        .replace("springs = 160", "engine = \"half-space\"\ncells = 32");
     let ways = [("march", LONG), ("search", &searched), ("cells", &cells)];
     for (name, text) in ways {
         let file = write(&folder, "long.toml", text);
@@ -286,7 +284,7 @@ fn a_long_case_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
             }
         };
         let out = folder.path().join(format!("{name}-out"));
-        let often = ["--checkpoint-every", "0"];
+        let often = ["--checkpoint-every", "0", "--threads", "1"];
         let case = out.join("checkpoints/0000");
         for (round, how) in ["-KILL", "-TERM"].into_iter().enumerate() {
             let mut child = start(&file, &out, &often);
@@ -375,7 +373,7 @@ fn a_damaged_checkpoint_is_passed_over() {
     let file = write(&folder, "long.toml", LONG);
     let (whole, out) = (whole_long(), folder.path().join("out"));
     let mut child = start(&file, &out, &["--checkpoint-every", "0"]);
-    let path = out.join("checkpoints/0000/00.cycle");
+    let path = out.join("checkpoints/0000/00.finished");
     wait_for("no checkpoint was written", || path.exists());
     signal(&child, "-KILL");
     child.wait().unwrap();
@@ -447,16 +445,19 @@ fn a_second_interrupt_ends_the_program_at_once_and_the_next_run_goes_on() {
 }
 
 #[test]
-fn two_processes_in_one_folder_do_each_other_no_harm() {
+fn a_second_process_that_computes_the_same_sweep_is_refused_and_the_first_goes_on() {
     let folder = TempDir::new().unwrap();
     let file = write(&folder, "cheap.toml", CHEAP);
     let (whole, out) = (whole_cheap(), folder.path().join("out"));
-    let children: Vec<Child> = (0..3)
-        .map(|_| start(&file, &out, &["--threads", "1"]))
-        .collect();
-    for mut child in children {
-        assert_eq!(child.wait().unwrap().code(), Some(0));
+    let mut first = start(&file, &out, &["--threads", "1"]);
+    wait_for("no case was finished", || segments::count(&out) > 2);
+    for more in [&[][..], &["--shard", "1/2"]] {
+        sweep(&file, &out, more)
+            .code(2)
+            .stderr(contains("the same sweep is computed there").and(contains("--shard 1/2")));
     }
+    assert_eq!(first.wait().unwrap().code(), Some(0));
+    sweep(&file, &out, &["--quiet"]).success();
     assert_same(&out, &whole);
 }
 

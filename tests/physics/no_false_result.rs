@@ -23,8 +23,8 @@ fn numbers_beyond_those_of_the_machine_are_a_failed_case_whose_record_can_be_rea
         assert!(record.result.is_none());
         let message = record.message.as_deref().unwrap();
         assert!(message.contains("not made of finite numbers"), "{message}");
-        let stored = serde_json::to_string(&record).unwrap();
-        assert_eq!(serde_json::from_str::<CaseRecord>(&stored).unwrap(), record);
+        let stored = postcard::to_stdvec(&record).unwrap();
+        assert_eq!(postcard::from_bytes::<CaseRecord>(&stored).unwrap(), record);
     }
     // Far away and yet within the range.
     let plan = sweep_plan(pmma_material(), sphere(), 1e100, 5e99);

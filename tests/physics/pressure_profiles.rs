@@ -217,8 +217,8 @@ fn a_marched_cycle_has_the_pressures_of_the_one_found_directly_and_a_record_keep
         // The default tolerance of the search.
         assert!(relative(a[0].1, b[0].1).abs() < 1e-4);
     }
-    let text = serde_json::to_string(&direct).unwrap();
-    let read: CaseRecord = serde_json::from_str(&text).unwrap();
+    let stored = postcard::to_stdvec(&direct).unwrap();
+    let read: CaseRecord = postcard::from_bytes(&stored).unwrap();
     assert_eq!(read, direct);
 }
 

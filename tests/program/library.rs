@@ -20,7 +20,7 @@ use contact_dma::sweep::plan::resolved::resolved_text;
 use contact_dma::sweep::record::Status;
 use contact_dma::sweep::search::run::{self, Progress};
 use contact_dma::sweep::store::Store;
-use contact_dma::sweep::store::archive::MemoryArchive;
+use contact_dma::sweep::store::records::Records;
 
 /// Of a sweep file, behind its question.
 const REST: &str = r#"[sweep]
@@ -74,7 +74,7 @@ fn a_sweep_from_values_in_memory_is_that_of_a_file_in_a_folder_to_the_last_bit()
 #[test]
 fn an_archive_in_memory_keeps_what_was_solved() {
     let plan = sweep().frequencies_hz([1e-3, 1e-2]).unwrap().into_plan();
-    let (setup, archive) = (Setup::new(plan).unwrap(), MemoryArchive::default());
+    let (setup, archive) = (Setup::new(plan).unwrap(), Records::default());
     let stopped = AtomicBool::new(true);
     let nothing = run::run(&setup, &archive, 1, &stopped, &Silent).unwrap();
     assert!(nothing.interrupted && nothing.records.is_empty());

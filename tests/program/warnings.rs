@@ -8,8 +8,9 @@ use crate::html::{between, unescaped};
 use crate::program::{SVG_ALONE, pmma_sweep, program, write};
 use contact_dma::input::document::Document;
 use contact_dma::input::sweep_file;
+use contact_dma::sweep::record::warning::Warning;
 use contact_dma::sweep::store::Store;
-use contact_dma::sweep::store::archive::{Kept, Purpose};
+use contact_dma::sweep::store::records::{Kept, Purpose};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -118,23 +119,21 @@ fn ten_newtons_on_a_tip_of_ten_nanometres_are_warned_of_everywhere() {
     let plan = sweep_file::plan(&Document::parse("resolved.toml", &plan).unwrap());
     let (store, _) = Store::reopen_to_read(&out).unwrap();
     let case = &plan.ok().unwrap().cases()[1];
-    let Kept::Intact(case) = store.load_case(Purpose::Sweep, case).unwrap() else {
+    let Kept::Intact(case) = store.records().load(Purpose::Sweep, case, false).unwrap() else {
         panic!("no record");
     };
-    let case = serde_json::to_value(*case).unwrap();
-    let ratio = case["result"]["contact_radius_m"]["maximum"]
-        .as_f64()
-        .unwrap()
-        / 1e-8;
+    let ratio = case.result.as_ref().unwrap().contact_radius_m.maximum / 1e-8;
     assert!(ratio > 300.0, "{ratio}");
-    let of = |code: &str, number: &str| {
-        let warnings = case["warnings"].as_array().unwrap();
-        let warning = warnings.iter().find(|w| w["code"] == code).unwrap();
-        warning[number].as_f64().unwrap()
+    let [
+        Warning::LargeStrain { strain },
+        Warning::SteepSlope { slope, .. },
+    ] = case.warnings[..]
+    else {
+        panic!("{:?}", case.warnings);
     };
     // Differentiated over a thousandth of the radius.
-    assert!((of("steep-slope", "slope") / ratio - 1.0).abs() < 1e-3);
-    assert!((of("large-strain", "strain") / (0.2 * ratio) - 1.0).abs() < 1e-3);
+    assert!((slope / ratio - 1.0).abs() < 1e-3);
+    assert!((strain / (0.2 * ratio) - 1.0).abs() < 1e-3);
     // Drawn again from the records, the same is said; asked to be quiet, nothing.
     let again = program().args(["report"]).arg(&out).assert().success();
     let again = String::from_utf8(again.get_output().stdout.clone()).unwrap();

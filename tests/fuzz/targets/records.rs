@@ -1,4 +1,4 @@
-//! Records of cases: the bytes of a segment, and the same as a case and as what is packed under a right checksum.
+//! Records of cases: the bytes of a log, and the same as what is packed under a right checksum.
 
 #![no_main]
 
@@ -14,7 +14,6 @@ thread_local! {
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     RECORDS.with(|records| {
         records.bytes(bytes);
-        records.case(bytes);
         records.packed(bytes);
     });
 });

@@ -1,6 +1,5 @@
 //! The stabilised cycle of one case on one engine, in one number of steps: searched directly or marched, then recorded.
 
-use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::{Deserialize, Serialize};
@@ -9,9 +8,9 @@ use crate::contact::{ContactError, Engine, Prescribed, Solution};
 use crate::cycle::LoopError;
 use crate::history::{March, Memory, TimeRule, Work};
 use crate::material::Creep;
-use crate::steady::{self, Begin, Cause, Steady, SteadySettings};
+use crate::steady::{self, Begin, Steady, SteadySettings};
 use crate::sweep::case::SetupError;
-use crate::sweep::case::checkpoint::{Checkpoints, Level, LevelState, Marching};
+use crate::sweep::case::checkpoint::Checkpoints;
 use crate::sweep::case::cycles::Cycles;
 use crate::sweep::case::solid::Solid;
 use crate::sweep::engine::{EngineError, prescribed};
@@ -207,46 +206,38 @@ impl Contact<'_> {
         steps: usize,
         start: Option<Vec<f64>>,
     ) -> Result<Stabilised, CaseError> {
-        let level = self.checkpoints.map(|all| all.begin(engine.nodes(), steps));
-        let level = level.as_ref();
-        if let Some(finished) = level.and_then(Level::finished) {
+        let Some(checkpoints) = self.checkpoints else {
+            return self.solve(engine, steps, start);
+        };
+        let level = checkpoints.next_level(engine.nodes(), steps);
+        // What cannot be used is found again.
+        if let Ok(Some(finished)) = level.read::<Stabilised>() {
             if let Some(last) = &finished.last {
                 engine.resume_from(last);
             }
             return Ok(finished);
         }
-        let ended = self.on_level(level, engine, steps, start)?;
-        if let Some(level) = level {
-            level.finish(&ended);
-        }
+        let ended = self.solve(engine, steps, start)?;
+        checkpoints.finished(level, &ended);
         Ok(ended)
     }
 
-    fn on_level(
+    fn solve(
         &self,
-        level: Option<&Level<'_>>,
         engine: &mut dyn Engine,
         steps: usize,
         start: Option<Vec<f64>>,
     ) -> Result<Stabilised, CaseError> {
-        let begin = match level.and_then(Level::state) {
-            Some(LevelState::Marching(state)) => {
-                return self.march(level, engine, steps, state.into_owned());
-            }
-            Some(LevelState::Searching(state)) => Begin::State(Box::new(state.into_owned())),
-            None => Begin::Memory(start),
-        };
         if self.cycle.method == Method::March {
-            return self.march(level, engine, steps, Marching::default());
+            return self.march(engine, steps, None);
         }
-        let mut searched = self.search(level, engine, steps, begin, &[]);
+        let mut searched = self.search(engine, steps, start, &[]);
         if let Ok(failed) = &searched
             && failed.result.is_none()
             && self.marches_at_last
         {
             let before = failed.cycles;
-            let begin = Begin::Memory(None);
-            searched = self.search(None, engine, steps, begin, &SMALLER_OSCILLATIONS);
+            searched = self.search(engine, steps, None, &SMALLER_OSCILLATIONS);
             if let Ok(searched) = &mut searched {
                 searched.cycles += before;
             }
@@ -266,35 +257,25 @@ impl Contact<'_> {
             }
             Err(error) => return Err(error),
         };
-        let after_search = Some((direct, why));
-        let state = Marching {
-            after_search,
-            ..Marching::default()
-        };
-        self.march(level, engine, steps, state)
+        self.march(engine, steps, Some((direct, why)))
     }
 
     /// The cycle searched for, after those with these parts of the oscillation about the same mean, each of which starts the next.
     /// That of none is the body relaxed under the mean. After such parts, what the acceleration does not find Newton's method may.
     fn search(
         &self,
-        level: Option<&Level<'_>>,
         engine: &mut dyn Engine,
         steps: usize,
-        mut begin: Begin,
+        mut start: Option<Vec<f64>>,
         parts: &[f64],
     ) -> Result<Stabilised, CaseError> {
         let mut march = March::new(engine, self.compliance.clone(), self.time_rule);
         let watch = steady::Watch {
             stop: &|| self.interrupt.load(Ordering::Relaxed),
-            between_cycles: &|state, cause| {
-                if let Some(level) = level {
-                    level.keep(LevelState::Searching(Cow::Borrowed(state)), cause);
-                }
-            },
+            between_cycles: &|_, _| {},
         };
         let most = SEARCH_CYCLES.min(self.cycle.max_cycles);
-        let mut find = |part: f64, begin: Begin, max_cycles: usize| {
+        let mut find = |part: f64, start: Option<Vec<f64>>, max_cycles: usize| {
             let drive = |fraction| self.in_part(part, fraction);
             let cycle = steady::Cycle {
                 drive: &drive,
@@ -306,6 +287,7 @@ impl Contact<'_> {
                 tolerance: self.cycle.tolerance,
                 max_cycles,
             };
+            let begin = Begin::Memory(start);
             let found = steady::find_from(&mut march, &cycle, begin, settings, &watch)?;
             self.check_interrupted()?;
             let memory = (found.converged).then(|| march.memory().variables().to_vec());
@@ -313,11 +295,11 @@ impl Contact<'_> {
         };
         let mut before = 0;
         for &part in parts {
-            let (found, memory) = find(part, begin, most.min(PART_CYCLES))?;
+            let (found, memory) = find(part, start, most.min(PART_CYCLES))?;
             before += found.cycles;
-            begin = Begin::Memory(memory);
+            start = memory;
         }
-        let (mut found, _) = find(1.0, begin, most)?;
+        let (mut found, _) = find(1.0, start, most)?;
         if !found.converged && !parts.is_empty() {
             before += found.cycles;
             found = self.search_by_newton(&mut march, steps)?;
@@ -351,60 +333,30 @@ impl Contact<'_> {
         Ok(found)
     }
 
-    /// Marches on from where the level stands, until a cycle is within the tolerance.
+    /// Marches until a cycle is within the tolerance, after a direct search that failed in so many cycles for a reason, if any did.
     fn march(
         &self,
-        level: Option<&Level<'_>>,
         engine: &mut dyn Engine,
         steps: usize,
-        state: Marching,
+        after_search: Option<(usize, String)>,
     ) -> Result<Stabilised, CaseError> {
         let mut march = March::new(engine, self.compliance.clone(), self.time_rule);
         let mut cycles = Cycles::new(self, &march, steps);
-        let under_way = 1..self.most_cycles();
-        if under_way.contains(&state.cycles) && march.restore(&state.march) {
-            (cycles.count, cycles.distance) = (state.cycles, state.distance);
-        }
-        let after_search = state.after_search;
-        if cycles.count == 0 {
-            match after_search {
-                // The stabilised cycle has forgotten the hold, and this is nearer to it.
-                Some(_) => {
-                    march.relax(self.mean())?;
-                }
-                None => {
-                    march.jump(self.held())?;
-                    let hold_s = self.condition.drive.hold_s();
-                    march.hold_in(self.hold_steps(steps), hold_s, self.held())?;
-                }
+        match after_search {
+            // The stabilised cycle has forgotten the hold, and this is nearer to it.
+            Some(_) => {
+                march.relax(self.mean())?;
             }
-            march.jump(self.prescribed(0.0))?;
+            None => {
+                march.jump(self.held())?;
+                let hold_s = self.condition.drive.hold_s();
+                march.hold_in(self.hold_steps(steps), hold_s, self.held())?;
+            }
         }
+        march.jump(self.prescribed(0.0))?;
         let mut result = None;
         while result.is_none() && cycles.count < self.most_cycles() {
-            let kept = level.filter(|level| cycles.count > 0 && level.is_wanted());
-            let kept = kept.map(|level| {
-                let state = Marching {
-                    after_search: after_search.clone(),
-                    cycles: cycles.count,
-                    distance: cycles.distance,
-                    march: march.state(),
-                };
-                (level, state)
-            });
-            let keep = |cause| {
-                if let Some((level, state)) = &kept {
-                    level.keep(LevelState::Marching(Cow::Borrowed(state)), cause);
-                }
-            };
-            keep(Cause::NextCycle);
-            result = match cycles.next(&mut march) {
-                Err(CaseError::Contact(ContactError::Interrupted)) => {
-                    keep(Cause::Stopped);
-                    return Err(ContactError::Interrupted.into());
-                }
-                ended => ended?,
-            };
+            result = cycles.next(&mut march)?;
         }
         let mut marched = cycles.ended(Method::March, &march, result);
         if let Some((direct, why)) = after_search {

@@ -124,30 +124,18 @@ impl AxisValues {
 impl Serialize for AxisValues {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self.all() {
-            [] => serializer.serialize_none(),
-            [one] => serializer.serialize_f64(*one),
-            several => several.serialize(serializer),
+            [] if serializer.is_human_readable() => serializer.serialize_none(),
+            [one] if serializer.is_human_readable() => serializer.serialize_f64(*one),
+            all => all.serialize(serializer),
         }
     }
 }
 
+/// Of records alone.
 impl<'de> Deserialize<'de> for AxisValues {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        #[derive(Deserialize)]
-        #[serde(untagged)]
-        enum Form {
-            None,
-            One(f64),
-            Several(Vec<f64>),
-        }
-        match Form::deserialize(deserializer)? {
-            Form::None => Ok(Self::default()),
-            Form::One(value) => Ok(Self::one(value)),
-            Form::Several(values) => {
-                let too_many = || serde::de::Error::custom("more values than axes");
-                Self::new(&values).ok_or_else(too_many)
-            }
-        }
+        let too_many = || serde::de::Error::custom("more values than axes");
+        Self::new(&Vec::deserialize(deserializer)?).ok_or_else(too_many)
     }
 }
 

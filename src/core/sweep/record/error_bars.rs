@@ -269,7 +269,6 @@ pub struct Bar {
     /// From the distance to the stabilised cycle.
     pub steady: f64,
     /// From what the data leave open of which the material was fitted.
-    #[serde(default)]
     pub material: f64,
 }
 

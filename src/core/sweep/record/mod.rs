@@ -52,7 +52,6 @@ pub struct CaseRecord {
     pub index: usize,
     pub angular_frequency_rad_per_s: f64,
     /// The numbers (SI units) that other axes than the frequency vary.
-    #[serde(default, skip_serializing_if = "AxisValues::is_empty")]
     pub varied: AxisValues,
     /// Mean and amplitude of the drive (N or m).
     pub drive_mean: f64,
@@ -61,7 +60,6 @@ pub struct CaseRecord {
     /// Why there is no result, or what else a reader should know.
     pub message: Option<String>,
     /// What lies outside the model, or was not estimated.
-    #[serde(default)]
     pub warnings: Vec<Warning>,
     /// How the cycle was reached in the end.
     pub method: Method,
@@ -92,20 +90,17 @@ pub struct CaseResult {
     pub contact_radius_m: Extrema,
     pub contact_duty: ContactDuty,
     /// Of an indenter that is attracted.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tabor_parameter: Option<f64>,
     /// `None` where the indenter's shape makes the pressure unbounded.
     pub peak_pressure_pa: Option<Extrema>,
     /// Errors of the numbers above; `None` where they were not asked for or could not be estimated.
     pub errors: Option<ErrorBars>,
     /// The loss (J) with each replica of the material in its place; `None` where no stabilised cycle was found with it.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub replica_losses_j: Vec<Option<f64>>,
     /// Energy (J) that each branch of the creep compliance dissipates over the cycle, shortest retardation time first; empty for a
     /// transient cycle.
     pub branches: Vec<BranchLoss>,
     /// The cycle itself and its surface; empty where only the numbers are held.
-    #[serde(default)]
     pub cycle: RecordedCycle,
 }
 
@@ -151,7 +146,6 @@ pub struct BranchLoss {
     pub retardation_time_s: f64,
     pub energy_loss_j: f64,
     /// The part of it (0 to 1) that is dissipated in the indenter; `None` where that is rigid.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub indenter_share: Option<f64>,
 }
 

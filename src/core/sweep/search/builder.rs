@@ -13,7 +13,7 @@ use crate::sweep::plan::check::PlanError;
 use crate::sweep::plan::{Axes, Case, EngineKind, Method, SolverPlan, SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::{self, Options, Outcome, RunError};
-use crate::sweep::store::archive::MemoryArchive;
+use crate::sweep::store::records::Records;
 
 /// A sweep under construction. Every method that takes a value checks it.
 ///
@@ -227,8 +227,8 @@ impl Sweep {
     pub fn solve(self) -> Result<Outcome, SweepError> {
         let setup = Setup::new(self.plan)?.interrupted_by(Arc::clone(&self.interrupt));
         let options = Options::on_threads(run::useful_threads(self.threads));
-        let archive = MemoryArchive::default();
-        let outcome = run::run_with(&setup, &archive, &options, &self.interrupt, &());
+        let records = Records::default();
+        let outcome = run::run_with(&setup, &records, &options, &self.interrupt, &());
         Ok(outcome?)
     }
 

@@ -20,8 +20,8 @@ use crate::sweep::plan::{AxisValues, Case, Condition};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::locate::curve_of;
 use crate::sweep::search::run::{Options, Outcome, Progress, RunError};
-use crate::sweep::store::archive::{Archive, Kept, Purpose};
-use crate::sweep::store::{Store, StoreError};
+use crate::sweep::store::records::{Kept, Purpose};
+use crate::sweep::store::{Archive, StoreError};
 
 /// What solving more cases takes.
 pub(in crate::sweep) struct Search<'a> {
@@ -66,7 +66,7 @@ impl<'a> Search<'a> {
             self.progress.cases_found(records.len(), cases.len());
         }
         records.extend(self.compute(Aim::PLAN, &lacking, false)?);
-        self.archive.sync()?;
+        self.archive.records.sync()?;
         // Each index is there once; a stable sort of many records takes half as much memory again.
         records.sort_unstable_by_key(|r| r.index);
         let missing = cases.len() - records.len();
@@ -93,11 +93,11 @@ impl<'a> Search<'a> {
         if !outcome.interrupted {
             outcome.interrupted = !self.locate_peaks(&mut outcome)?;
         }
-        self.archive.sync()?;
+        self.archive.records.sync()?;
         // Where nothing is solved, another process may be at work in the folder.
         if self.checkpoint_every.is_some()
             && !outcome.interrupted
-            && let Some(store) = self.archive.store()
+            && let Some(store) = self.archive.store
         {
             store.remove_checkpoints("");
         }
@@ -155,9 +155,12 @@ impl<'a> Search<'a> {
         purpose: Purpose,
         cases: &[Case],
     ) -> Result<(Vec<CaseRecord>, Vec<Case>), StoreError> {
-        for unread in self.archive.store().map_or(Ok(Vec::new()), Store::look)? {
-            let path = unread.path.display();
-            self.progress.told(&format!("{path}: {}", unread.reason));
+        // Losses at peaks are nobody else's.
+        if purpose == Purpose::Sweep {
+            for unread in self.archive.records.look()? {
+                let path = unread.path.display();
+                self.progress.told(&format!("{path}: {}", unread.reason));
+            }
         }
         let then = match self.checkpoint_every {
             Some(_) => "the case is computed again",
@@ -192,12 +195,12 @@ impl<'a> Search<'a> {
     /// What there is of a case, with its cycle where the outcome holds them.
     fn load_case(&self, purpose: Purpose, case: &Case) -> Result<Kept, StoreError> {
         let with_cycle = purpose == Purpose::Sweep && self.holds_cycles();
-        self.archive.load_case(purpose, case, with_cycle)
+        self.archive.records.load(purpose, case, with_cycle)
     }
 
     /// Whether the outcome holds the cycles of all cases; of a large sweep in a folder they stay there.
     fn holds_cycles(&self) -> bool {
-        self.archive.store().is_none() || self.setup.plan().is_small()
+        self.archive.store.is_none() || self.setup.plan().is_small()
     }
 
     /// Solves these cases in parallel, the dearest first: each thread takes the next from a common counter, so that the
@@ -239,7 +242,7 @@ impl<'a> Search<'a> {
         Ok(parts.into_iter().flatten().collect())
     }
 
-    /// Solves a case and stores its record, unless another process has done so meanwhile; `None` where it was interrupted.
+    /// Solves a case and stores its record; `None` where it was interrupted.
     fn compute_one(
         &self,
         aim: Aim,
@@ -247,25 +250,22 @@ impl<'a> Search<'a> {
         every: Duration,
     ) -> Result<Option<CaseRecord>, StoreError> {
         let purpose = aim.purpose();
-        let record = match self.load_case(purpose, case)? {
-            Kept::Intact(record) => *record,
-            Kept::Absent | Kept::OfAnotherBuild { .. } | Kept::Unusable { .. } => {
-                let store = self.archive.store();
-                let checkpoints = store.map(|store| Checkpoints::of(store, purpose, case, every));
-                let checkpoints = checkpoints.as_ref();
-                let found = (self.setup).run_for(aim, checkpoints, case, self.interrupt);
-                let Some(record) = found else {
-                    return Ok(None);
-                };
-                self.archive.save_case(purpose, case, &record)?;
-                if let Some(checkpoints) = checkpoints {
-                    checkpoints.remove();
-                }
-                match self.holds_cycles() {
-                    true => record,
-                    false => record.without_cycle(),
-                }
-            }
+        let store = self.archive.store;
+        let checkpoints = store.map(|store| Checkpoints::of(store, purpose, case, every));
+        let checkpoints = checkpoints.as_ref();
+        let Some(record) = (self.setup).run_for(aim, checkpoints, case, self.interrupt) else {
+            return Ok(None);
+        };
+        if let Some(store) = store {
+            store.check_plan()?;
+        }
+        self.archive.records.insert(purpose, case, &record)?;
+        if let Some(checkpoints) = checkpoints {
+            checkpoints.remove();
+        }
+        let record = match self.holds_cycles() {
+            true => record,
+            false => record.without_cycle(),
         };
         if purpose == Purpose::Sweep {
             self.progress.case_finished(&record);

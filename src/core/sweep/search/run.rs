@@ -1,7 +1,7 @@
 //! The sweep itself: cases in parallel, the dearest first, each on disk before its thread takes the next; then the peaks.
 //!
-//! The archive, most often a folder, is the memory of a sweep. A case whose record is there is not solved again, be it from an earlier run, another
-//! process at work in the same folder, or a merged part: the outcome is the same, bit for bit.
+//! The archive, most often a folder, is the memory of a sweep. A case whose record is there is not solved again, be it from an earlier run,
+//! a shard, or a merged part: the outcome is the same, bit for bit.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
@@ -15,9 +15,8 @@ use crate::sweep::record::{BranchLoss, CaseRecord, Status};
 use crate::sweep::search::Search;
 use crate::sweep::search::peak::Peak;
 use crate::sweep::share::shard::{self, Shard};
-use crate::sweep::store::StoreError;
-use crate::sweep::store::archive::{Archive, Purpose};
-use crate::sweep::store::checkpoint_file;
+use crate::sweep::store::records::Purpose;
+use crate::sweep::store::{Archive, StoreError, checkpoint_file};
 
 /// Why a sweep stopped without an outcome.
 #[derive(Debug, thiserror::Error)]
@@ -118,7 +117,9 @@ pub fn run_with<'a>(
     interrupt: &AtomicBool,
     progress: &dyn Progress,
 ) -> Result<Outcome, RunError> {
-    let search = Search::new(setup, archive.into(), Some(options), (interrupt, progress))?;
+    let archive = archive.into();
+    archive.claim(true)?;
+    let search = Search::new(setup, archive, Some(options), (interrupt, progress))?;
     let (records, missing) = search.planned(&setup.plan().cases())?;
     search.outcome(records, missing > 0)
 }
@@ -135,7 +136,9 @@ pub fn run_shard<'a>(
     interrupt: &AtomicBool,
     progress: &dyn Progress,
 ) -> Result<Part, RunError> {
-    let search = Search::new(setup, archive.into(), Some(options), (interrupt, progress))?;
+    let archive = archive.into();
+    archive.claim(false)?;
+    let search = Search::new(setup, archive, Some(options), (interrupt, progress))?;
     let own = shard::cases(setup, shard);
     let (records, missing) = search.planned(&own)?;
     if missing > 0 {

@@ -7,7 +7,7 @@ use crate::drive::Control;
 use crate::sweep::case::{Aim, Resolution, Setup, SetupError, accuracy};
 use crate::sweep::plan::{Condition, EngineKind};
 use crate::sweep::share::cost;
-use crate::sweep::store::packed_record;
+use crate::sweep::store::records;
 
 /// Trials end after this time, whole cases each.
 const LONGEST: Duration = Duration::from_millis(1500);
@@ -83,8 +83,8 @@ impl Trial {
             };
             taken_s += clock.elapsed().as_secs_f64();
             expected_s += foretold_s;
-            if let Ok(packed) = packed_record::pack(&record) {
-                trial.record_bytes = packed.len() as u64;
+            if let Ok(encoded) = records::encoded(&record) {
+                trial.record_bytes = encoded.len() as u64;
             }
             if k == most / 2 {
                 let own_s = clock.elapsed().as_secs_f64();

@@ -40,6 +40,10 @@ pub enum StoreError {
     #[error("{path} is in use: {running} runs there, and what runs is not replaced")]
     InUse { path: PathBuf, running: String },
     #[error(
+        "{path} is in use: the same sweep is computed there, and only shards of a sweep share a folder"
+    )]
+    Computed { path: PathBuf },
+    #[error(
         "{path} was taken from this run: its {RESOLVED} was replaced or removed meanwhile, so nothing more is written there"
     )]
     TakenOver { path: PathBuf },
@@ -59,6 +63,8 @@ pub enum Remedy {
     OtherFolder,
     /// Another folder, or waiting.
     OtherFolderOrWait,
+    /// Another folder, waiting, or shards.
+    OtherFolderOrShards,
     /// Another folder, or to replace what is there.
     OtherFolderOrForce,
     /// Another folder, or to write beside what is there.
@@ -90,6 +96,7 @@ impl StoreError {
             Self::OtherSweep { at_work: true, .. } | Self::InUse { .. } => {
                 Remedy::OtherFolderOrWait
             }
+            Self::Computed { .. } => Remedy::OtherFolderOrShards,
             Self::OtherSweep { .. } | Self::OtherKind { .. } | Self::NewerProgram { .. } => {
                 Remedy::OtherFolderOrForce
             }

@@ -12,6 +12,7 @@ use std::path::Path;
 
 /// The file that is locked. It stays: were it removed, two processes could hold locks on two files of this name.
 pub(super) const LOCK: &str = ".contact-dma.lock";
+pub(super) const LOCK_TO_COMPUTE: &str = ".contact-dma.compute.lock";
 
 /// Who else is at work in a folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,9 +35,17 @@ pub(in crate::sweep) struct FolderLock {
 impl FolderLock {
     /// The lock of a folder, not taken yet.
     pub(in crate::sweep) fn of(folder: &Path) -> Self {
-        let path = folder.join(LOCK);
+        Self::on(&folder.join(LOCK))
+    }
+
+    /// That of the processes that compute cases in it, which is exclusive but for shards.
+    pub(in crate::sweep) fn to_compute(folder: &Path) -> Self {
+        Self::on(&folder.join(LOCK_TO_COMPUTE))
+    }
+
+    fn on(path: &Path) -> Self {
         // Through a link, names would be written into a file that is somebody else's.
-        if fs::symlink_metadata(&path).is_ok_and(|file| !file.is_file()) {
+        if fs::symlink_metadata(path).is_ok_and(|file| !file.is_file()) {
             return Self::none();
         }
         // NFS asks for a file open for writing to lock it exclusively.
@@ -44,10 +53,10 @@ impl FolderLock {
             .read(true)
             .append(true)
             .create(true)
-            .open(&path);
+            .open(path);
         let is_writable = file.is_ok();
         // Another user's, in a folder of several.
-        let file = file.or_else(|_| File::open(&path)).ok();
+        let file = file.or_else(|_| File::open(path)).ok();
         Self { file, is_writable }
     }
 
@@ -90,7 +99,16 @@ impl FolderLock {
 
     /// Takes the lock exclusively where nobody else has it.
     pub(in crate::sweep) fn try_exclusive(&self) -> Others {
-        match self.file.as_ref().map(File::try_lock) {
+        self.taken(File::try_lock)
+    }
+
+    /// Takes the lock together with others where nobody has it exclusively.
+    pub(in crate::sweep) fn try_shared(&self) -> Others {
+        self.taken(File::try_lock_shared)
+    }
+
+    fn taken(&self, lock: fn(&File) -> Result<(), TryLockError>) -> Others {
+        match self.file.as_ref().map(lock) {
             Some(Ok(())) => Others::Absent,
             Some(Err(TryLockError::WouldBlock)) => Others::AtWork,
             Some(Err(TryLockError::Error(_))) | None => Others::Unknown,

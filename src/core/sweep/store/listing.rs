@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::folder_lock::LOCK;
 use super::records::{self, Records};
-use super::{RESOLVED, StoreError, files, segment};
+use super::{RESOLVED, StoreError, files, log};
 use crate::sweep::plan::resolved::hash;
 
 /// The list, and where the results come from.
@@ -221,7 +221,7 @@ fn segments(folder: &Path) -> Vec<String> {
     let is_segment = |path: &PathBuf| {
         path.extension()
             .is_some_and(|ending| ending == records::ENDING)
-            && segment::is_one(path)
+            && log::is_one(path)
     };
     let name = |path: PathBuf| {
         let name = path.file_name()?.to_str()?;
@@ -240,8 +240,7 @@ fn has_plan(folder: &Path, resolved: Option<&str>) -> bool {
 
 /// Whether there are whole records of a plan.
 pub(super) fn has_records(folder: &Path, resolved: &str) -> bool {
-    let records = Records::of(folder, &hash(resolved));
-    records.look().is_ok() && !records.places().is_empty()
+    !Records::in_folder(folder, &hash(resolved), false).is_empty()
 }
 
 /// The files of a version that wrote no list, by their names.

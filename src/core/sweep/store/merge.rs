@@ -1,7 +1,7 @@
 //! The records of several folders of one sweep, brought together in one.
 
 use crate::sweep::plan::Case;
-use crate::sweep::store::archive::{Kept, Purpose};
+use crate::sweep::store::records::{Kept, Purpose};
 use crate::sweep::store::{Store, StoreError};
 
 /// Copies the records of all parts into `out` and returns the cases of the sweep that none of them has. `told` hears of
@@ -16,12 +16,13 @@ pub fn gather(
     told: &dyn Fn(&str),
 ) -> Result<Vec<Case>, StoreError> {
     for part in std::iter::once(out).chain(parts) {
-        for unread in part.look()? {
+        for unread in part.records.look()? {
             told(&format!("{}: {}", unread.path.display(), unread.reason));
         }
     }
+    out.check_plan()?;
     for part in parts {
-        out.take_from(part, &|record| {
+        out.records.take_from(&part.records, &|record| {
             told(&format!(
                 "{} holds another result of case {} than a part before it; the first is kept",
                 part.folder().display(),
@@ -31,11 +32,11 @@ pub fn gather(
     }
     let mut missing = Vec::new();
     for case in cases {
-        if let Kept::Intact(_) = out.load_case(Purpose::Sweep, case)? {
+        if let Kept::Intact(_) = out.records.load(Purpose::Sweep, case, false)? {
             continue;
         }
         for part in parts {
-            if let Some(refusal) = part.load_case(Purpose::Sweep, case)?.refusal() {
+            if let Some(refusal) = part.records.load(Purpose::Sweep, case, false)?.refusal() {
                 told(&refusal);
             }
         }

@@ -8,27 +8,23 @@
 //!
 //! The program replaces and removes only what it has written itself, which `run.json` lists: see [`manifest`].
 
-pub mod archive;
 pub mod checkpoint_file;
 pub mod difference;
 mod error;
 pub mod files;
 pub(in crate::sweep) mod folder_lock;
 mod listing;
+pub mod log;
 pub mod manifest;
-pub mod memory;
 pub mod merge;
-pub mod packed;
-pub mod packed_record;
 pub mod provenance;
 pub mod records;
-pub mod segment;
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, LazyLock, Mutex, PoisonError};
+use std::sync::{Arc, LazyLock, Mutex, OnceLock, PoisonError};
 use std::time::SystemTime;
 
 use tempfile::NamedTempFile;
@@ -47,12 +43,44 @@ pub struct Store {
     pub(in crate::sweep) sweep_hash: String,
     /// The resolved file as it was when the folder was opened.
     pub(in crate::sweep) resolved: Arc<str>,
-    /// Whether records of a newer program may be replaced.
-    pub(in crate::sweep) force: bool,
     manifest: Arc<Manifest>,
-    pub(in crate::sweep) records: Arc<Records>,
+    records: Arc<Records>,
+    /// Of a process that computes: see [`Self::claim`].
+    claim: Arc<OnceLock<FolderLock>>,
     /// The resolved file as it was last found to be of this sweep.
     pub(in crate::sweep) checked: Arc<Mutex<Option<FileVersion>>>,
+}
+
+/// Where the records of a sweep are: in its folder, or in memory.
+#[derive(Debug, Clone, Copy)]
+pub struct Archive<'a> {
+    pub records: &'a Records,
+    pub store: Option<&'a Store>,
+}
+
+impl Archive<'_> {
+    /// As [`Store::claim`]; nobody else has records in memory.
+    pub(in crate::sweep) fn claim(self, alone: bool) -> Result<(), StoreError> {
+        self.store.map_or(Ok(()), |store| store.claim(alone))
+    }
+}
+
+impl<'a> From<&'a Store> for Archive<'a> {
+    fn from(store: &'a Store) -> Self {
+        Self {
+            records: &store.records,
+            store: Some(store),
+        }
+    }
+}
+
+impl<'a> From<&'a Records> for Archive<'a> {
+    fn from(records: &'a Records) -> Self {
+        Self {
+            records,
+            store: None,
+        }
+    }
 }
 
 /// What differs between a file and any that has taken its place: when it was written, its length, and where the file system has
@@ -130,10 +158,8 @@ impl Store {
         let (found, reads) = target.check_plan(resolved)?;
         let is_other_kind = found.kind.is_some_and(|kind| kind != target.kind);
         let manifest = Manifest::new(folder, target.kind, lock, found.files).reading(reads);
-        let store = Self {
-            force,
-            ..Self::of(folder, resolved, manifest)
-        };
+        let mut store = Self::of(folder, resolved, manifest);
+        store.records = Arc::new(Records::in_folder(folder, &store.sweep_hash, force));
         if others == Others::Absent {
             store.manifest.remove_temporaries();
         }
@@ -187,10 +213,10 @@ impl Store {
         let sweep_hash = hash(resolved);
         Self {
             folder: folder.to_path_buf(),
-            records: Arc::new(Records::of(folder, &sweep_hash)),
+            records: Arc::new(Records::in_folder(folder, &sweep_hash, false)),
+            claim: Arc::default(),
             sweep_hash,
             resolved: resolved.into(),
-            force: false,
             checked: Arc::default(),
             manifest: Arc::new(manifest),
         }
@@ -267,6 +293,33 @@ impl Store {
     /// The folder.
     pub fn folder(&self) -> &Path {
         &self.folder
+    }
+
+    /// The records in it.
+    pub fn records(&self) -> &Records {
+        &self.records
+    }
+
+    /// Takes the folder for computing, until the store is dropped: alone, or together with others that compute other cases.
+    ///
+    /// # Errors
+    /// [`StoreError::Computed`] where another process has it.
+    fn claim(&self, alone: bool) -> Result<(), StoreError> {
+        if self.claim.get().is_some() {
+            return Ok(());
+        }
+        let lock = FolderLock::to_compute(&self.folder);
+        let others = match alone {
+            true => lock.try_exclusive(),
+            false => lock.try_shared(),
+        };
+        if others == Others::AtWork {
+            return Err(StoreError::Computed {
+                path: self.folder.clone(),
+            });
+        }
+        self.claim.get_or_init(|| lock);
+        Ok(())
     }
 
     /// Hash of the resolved sweep.

@@ -1,20 +1,24 @@
-//! The records in a folder: which segments there are, where in them each record stands, and the segment this process appends to.
+//! The records of a sweep: which cases have one, and where it stands, in a log of this process or of another one, or in memory.
+//!
+//! A folder has one log per process that ever worked in it. Each record names the program, the build, the plan and the case that it
+//! belongs to, and holds the numbers and, behind them, the cycle, which is read only where it is asked for. Records in memory are
+//! a log that is no file: they can be handed to another process, and put into a folder.
 
 use std::collections::HashMap;
 use std::fs;
-use std::io;
+use std::io::{self, Cursor};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
-use super::archive::Purpose;
+use super::log::{self, LogWriter, Met};
 use super::provenance::{self, BUILD};
-use super::segment::{self, Met, SegmentWriter};
-use super::{StoreError, VERSION, create_folder};
+use super::{Store, StoreError, VERSION, create_folder};
+use crate::sweep::plan::{AxisValues, Case};
+use crate::sweep::record::{CaseRecord, RecordedCycle};
 
-/// The folder of the segments, and the ending of their names.
+/// The folder of the logs, and the ending of their names.
 pub const FOLDER: &str = "records";
 pub const ENDING: &str = "segment";
 
@@ -22,15 +26,57 @@ pub const ENDING: &str = "segment";
 const NOT_USED: &str = "(their checksum does not match): what stood there is not used";
 const NO_END: &str = "(a record without its end): they are not used";
 
-/// Where other processes may be at work, their segments are looked at again after this time.
-const LOOK_AGAIN: Duration = Duration::from_millis(500);
+/// What a case was solved for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Purpose {
+    /// A case of the sweep.
+    Sweep,
+    /// The loss at a frequency between those of the sweep, to locate a peak.
+    Peak,
+}
 
 /// Which case a record is of: what it was solved for, and its numbers bit for bit.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub(in crate::sweep) struct Key {
-    pub purpose: Purpose,
+    purpose: Purpose,
     /// Mean, amplitude, frequency, and what else varies.
-    pub bits: Vec<u64>,
+    bits: Vec<u64>,
+}
+
+impl Key {
+    pub(in crate::sweep) fn of(purpose: Purpose, case: &Case) -> Self {
+        let (drive, omega) = (&case.condition.drive, case.angular_frequency_rad_per_s);
+        let drive = [drive.mean(), drive.amplitude()];
+        Self::new(purpose, drive, omega, case.condition.values)
+    }
+
+    /// The case of the sweep whose record this is.
+    fn of_record(record: &CaseRecord) -> Self {
+        let drive = [record.drive_mean, record.drive_amplitude];
+        let omega = record.angular_frequency_rad_per_s;
+        Self::new(Purpose::Sweep, drive, omega, record.varied)
+    }
+
+    /// The name of a case in the folder: the same in every process that solves it.
+    pub(in crate::sweep) fn name(purpose: Purpose, case: &Case) -> String {
+        match purpose {
+            Purpose::Sweep => format!("{:04}", case.index),
+            Purpose::Peak => {
+                let bits = Self::of(purpose, case).bits.into_iter();
+                let names: Vec<String> = bits.map(|bits| format!("{bits:016x}")).collect();
+                names.join("-")
+            }
+        }
+    }
+
+    fn new(purpose: Purpose, drive: [f64; 2], omega: f64, varied: AxisValues) -> Self {
+        let numbers = drive.into_iter().chain([omega]);
+        let numbers = numbers.chain(varied.all().iter().copied());
+        Self {
+            purpose,
+            bits: numbers.map(f64::to_bits).collect(),
+        }
+    }
 }
 
 /// How the content of a record begins, in every version of the program.
@@ -44,7 +90,7 @@ struct Heading<'a> {
 
 /// Whose record it is.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub(in crate::sweep) enum Origin {
+enum Origin {
     ThisBuild,
     AnotherBuild,
     Older(String),
@@ -53,10 +99,11 @@ pub(in crate::sweep) enum Origin {
 
 /// Where a record stands.
 #[derive(Debug, Clone)]
-pub(in crate::sweep) struct Place {
-    pub segment: Arc<Path>,
-    pub origin: Origin,
-    /// The content of its frame, and how much of that is the heading (bytes).
+struct Place {
+    /// `None` in memory.
+    log: Option<Arc<Path>>,
+    origin: Origin,
+    /// The content, and how much of that is the heading (bytes).
     at: u64,
     length: usize,
     heading: usize,
@@ -69,91 +116,151 @@ pub struct Unread {
     pub reason: String,
 }
 
-/// All that is known of the records of a folder.
-#[derive(Debug)]
-pub(in crate::sweep) struct Records(Mutex<State>);
+/// What there is of a case.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Kept {
+    Absent,
+    Intact(Box<CaseRecord>),
+    /// There is a record of this version of the program, but of another build, whose numbers may be others.
+    OfAnotherBuild {
+        path: PathBuf,
+        record: Box<CaseRecord>,
+    },
+    /// There is a record, but it cannot be used.
+    Unusable {
+        path: PathBuf,
+        reason: String,
+    },
+}
+
+impl Kept {
+    /// Why a record is not used, and where it stands.
+    pub(in crate::sweep) fn refusal(&self) -> Option<String> {
+        let (path, reason) = match self {
+            Self::Intact(_) | Self::Absent => return None,
+            Self::OfAnotherBuild { path, .. } => (path, OF_ANOTHER_BUILD),
+            Self::Unusable { path, reason } => (path, reason.as_str()),
+        };
+        Some(format!("{}: {reason}", path.display()))
+    }
+}
+
+/// What is said of a record of another build.
+const OF_ANOTHER_BUILD: &str = concat!(
+    "it was written by another build of version ",
+    env!("CARGO_PKG_VERSION"),
+    " of the program"
+);
+
+/// A record as it is stored behind its heading: its numbers, then its cycle, where it has one.
+///
+/// # Errors
+/// Why it cannot be encoded.
+pub fn encoded(record: &CaseRecord) -> Result<Vec<u8>, String> {
+    let cycle = record.result.as_ref().and_then(|result| result.cycle());
+    let encoded = postcard::to_stdvec(&(record.without_cycle(), cycle));
+    encoded.map_err(|error| error.to_string())
+}
+
+/// The numbers of an [`encoded`] record; `None` of anything else.
+pub fn numbers(encoded: &[u8]) -> Option<CaseRecord> {
+    postcard::take_from_bytes(encoded).ok().map(|(it, _)| it)
+}
+
+/// Gives the numbers of an [`encoded`] record their cycle, where there is one.
+fn add_cycle(record: &mut CaseRecord, encoded: &[u8]) {
+    let found = postcard::from_bytes::<(CaseRecord, Option<RecordedCycle>)>(encoded);
+    if let (Some(result), Ok((_, Some(cycle)))) = (&mut record.result, found) {
+        result.cycle = cycle;
+    }
+}
+
+/// The records of one sweep, in its folder or in memory alone.
+#[derive(Debug, Default)]
+pub struct Records(Mutex<State>);
 
 #[derive(Debug, Default)]
 struct State {
-    folder: PathBuf,
+    /// `None` in memory.
+    folder: Option<PathBuf>,
+    /// Of records in memory it is not asked: they never were another sweep's.
     sweep_hash: String,
-    /// Segments, and how far each has been read.
-    read: HashMap<PathBuf, (Arc<Path>, u64)>,
+    /// Whether records of a newer program may be replaced.
+    force: bool,
     places: HashMap<Key, Place>,
+    /// Files of the folder, and how far each has been read.
+    read: HashMap<PathBuf, (Arc<Path>, u64)>,
+    has_looked: bool,
     unread: Vec<Unread>,
-    looked: Option<Instant>,
-    own: Option<SegmentWriter>,
+    own: Option<LogWriter>,
+    memory: Vec<u8>,
 }
 
 impl Records {
-    pub(in crate::sweep) fn of(folder: &Path, sweep_hash: &str) -> Self {
+    pub(super) fn in_folder(folder: &Path, sweep_hash: &str, force: bool) -> Self {
         Self(Mutex::new(State {
-            folder: folder.join(FOLDER),
+            folder: Some(folder.join(FOLDER)),
             sweep_hash: sweep_hash.to_owned(),
+            force,
             ..State::default()
         }))
     }
 
-    fn state(&self) -> MutexGuard<'_, State> {
+    fn lock(&self) -> MutexGuard<'_, State> {
         // What a panicking thread has left half done is read from the files again, at worst.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Looks at the folder again, now.
+    /// With what the folder holds, which is read once.
+    fn state(&self) -> Result<MutexGuard<'_, State>, StoreError> {
+        let mut state = self.lock();
+        if !state.has_looked {
+            state.look()?;
+        }
+        Ok(state)
+    }
+
+    /// Reads what other processes have appended since the folder was last looked at; what was met that is no record of this sweep.
     ///
     /// # Errors
     /// [`StoreError::Read`] with the path.
-    pub(in crate::sweep) fn look(&self) -> Result<(), StoreError> {
-        self.state().look()
+    pub fn look(&self) -> Result<Vec<Unread>, StoreError> {
+        let mut state = self.lock();
+        state.look()?;
+        Ok(std::mem::take(&mut state.unread))
     }
 
-    /// Where the record of a case stands, be it of another process that has appended it a moment ago.
+    /// Whether there are any of this sweep.
+    pub(super) fn is_empty(&self) -> bool {
+        self.state().map_or(true, |state| state.places.is_empty())
+    }
+
+    /// Appends the record of a finished case.
     ///
     /// # Errors
-    /// As [`Self::look`].
-    pub(in crate::sweep) fn place(&self, key: &Key) -> Result<Option<Place>, StoreError> {
-        let mut state = self.state();
-        if !state.places.contains_key(key)
-            && state.looked.is_none_or(|at| at.elapsed() >= LOOK_AGAIN)
-        {
-            state.look()?;
-        }
-        Ok(state.places.get(key).cloned())
-    }
-
-    /// All that has been found, in the order of the keys.
-    pub(in crate::sweep) fn places(&self) -> Vec<(Key, Place)> {
-        let places = self.state();
-        let places = places.places.iter();
-        let mut all: Vec<_> = places.map(|(k, p)| (k.clone(), p.clone())).collect();
-        all.sort_by(|a, b| a.0.cmp(&b.0));
-        all
-    }
-
-    /// What was met that is no record of this sweep, since it was last asked for.
-    pub(in crate::sweep) fn unread(&self) -> Vec<Unread> {
-        std::mem::take(&mut self.state().unread)
-    }
-
-    /// The record at a place, without its heading.
-    ///
-    /// # Errors
-    /// [`StoreError::Read`] with the path, also where it is no longer what was found there.
-    pub(in crate::sweep) fn read(&self, place: &Place) -> Result<Vec<u8>, StoreError> {
-        let content = segment::content(&place.segment, place.at, place.length);
-        let mut content = content.map_err(|source| StoreError::Read {
-            path: place.segment.to_path_buf(),
-            source,
-        })?;
-        Ok(content.split_off(place.heading))
+    /// [`StoreError`] with the path.
+    pub fn insert(
+        &self,
+        purpose: Purpose,
+        case: &Case,
+        record: &CaseRecord,
+    ) -> Result<(), StoreError> {
+        let encoded = match purpose {
+            Purpose::Sweep => encoded(record),
+            // Its cycle is drawn nowhere.
+            Purpose::Peak => encoded(&record.without_cycle()),
+        };
+        let mut state = self.lock();
+        let encoded = encoded.map_err(|reason| state.not_encoded(reason))?;
+        state.append(Key::of(purpose, case), &encoded)
     }
 
     /// Brings all records appended to the disk.
     ///
     /// # Errors
-    /// [`StoreError::Write`] with the path.
-    pub(in crate::sweep) fn sync(&self) -> Result<(), StoreError> {
-        let state = self.state();
+    /// [`StoreError::Write`] with the path, where the disk turns out to be full for one.
+    pub fn sync(&self) -> Result<(), StoreError> {
+        let state = self.lock();
         let Some(writer) = &state.own else {
             return Ok(());
         };
@@ -163,71 +270,224 @@ impl Records {
         })
     }
 
-    /// Appends a record of this build. The folder of the segments is there once something was written.
+    fn place(&self, key: &Key) -> Result<Option<Place>, StoreError> {
+        Ok(self.state()?.places.get(key).cloned())
+    }
+
+    /// The record at a place, without its heading.
+    fn content(&self, place: &Place) -> Result<Vec<u8>, StoreError> {
+        let Some(path) = &place.log else {
+            let from = place.at as usize;
+            let range = from + place.heading..from + place.length;
+            let state = self.lock();
+            return Ok(state.memory.get(range).unwrap_or_default().to_vec());
+        };
+        let content = log::content(path, place.at, place.length);
+        let mut content = content.map_err(|source| StoreError::Read {
+            path: path.to_path_buf(),
+            source,
+        })?;
+        Ok(content.split_off(place.heading))
+    }
+
+    /// The record of a case, where there is a usable one, with its cycle where that is asked for.
+    ///
+    /// # Errors
+    /// [`StoreError`] where the record cannot be read, or was written by a newer program and may not be replaced.
+    pub fn load(
+        &self,
+        purpose: Purpose,
+        case: &Case,
+        with_cycle: bool,
+    ) -> Result<Kept, StoreError> {
+        let Some(place) = self.place(&Key::of(purpose, case))? else {
+            return Ok(Kept::Absent);
+        };
+        let path = place.log.as_deref().unwrap_or(Path::new("")).to_path_buf();
+        let unusable = |path, reason: String| Ok(Kept::Unusable { path, reason });
+        match &place.origin {
+            Origin::Newer(version) if !self.lock().force => {
+                let version = version.clone();
+                return Err(StoreError::NewerProgram { path, version });
+            }
+            Origin::Newer(version) => return unusable(path, written_by(version, "newer")),
+            Origin::Older(version) => return unusable(path, written_by(version, "older")),
+            Origin::ThisBuild | Origin::AnotherBuild => {}
+        }
+        let content = self.content(&place)?;
+        let Some(mut record) = numbers(&content) else {
+            let case = case.index;
+            return unusable(path, format!("the record of case {case} is damaged"));
+        };
+        let same_frequency = record.angular_frequency_rad_per_s.to_bits()
+            == case.angular_frequency_rad_per_s.to_bits();
+        if !same_frequency || !record.is_of(&case.condition) {
+            return unusable(path, "a record in it belongs to another sweep".to_owned());
+        }
+        record.index = case.index;
+        if with_cycle {
+            add_cycle(&mut record, &content);
+        }
+        let record = Box::new(record);
+        Ok(match place.origin {
+            Origin::ThisBuild => Kept::Intact(record),
+            _ => Kept::OfAnotherBuild { path, record },
+        })
+    }
+
+    /// Gives a record of the sweep its cycle, where there is one.
+    ///
+    /// # Errors
+    /// [`StoreError::Read`] with the path.
+    pub fn load_cycle(&self, record: &mut CaseRecord) -> Result<(), StoreError> {
+        if let Some(place) = self.place(&Key::of_record(record))? {
+            add_cycle(record, &self.content(&place)?);
+        }
+        Ok(())
+    }
+
+    /// Appends every record of this build that others of the same sweep have and these have not. `differs` hears of those that both
+    /// have and that are not the same; the first stays.
     ///
     /// # Errors
     /// [`StoreError`] with the path.
-    pub(in crate::sweep) fn append(&self, key: Key, record: &[u8]) -> Result<(), StoreError> {
-        let mut state = self.state();
+    pub(in crate::sweep) fn take_from(
+        &self,
+        others: &Self,
+        differs: &dyn Fn(&CaseRecord),
+    ) -> Result<(), StoreError> {
+        let is_own = |place: &Place| place.origin == Origin::ThisBuild;
+        let mut places: Vec<_> = others.state()?.places.clone().into_iter().collect();
+        places.sort_by(|(a, _), (b, _)| a.cmp(b));
+        for (key, place) in places.into_iter().filter(|(_, place)| is_own(place)) {
+            let record = others.content(&place)?;
+            match self.place(&key)?.filter(is_own) {
+                None => self.lock().append(key, &record)?,
+                Some(known) if self.content(&known)? == record => {}
+                Some(_) => {
+                    if let Some(record) = numbers(&record) {
+                        differs(&record);
+                    }
+                }
+            }
+        }
+        self.sync()
+    }
+
+    /// Puts every record into the folder of the same sweep, but those of cases that have one there.
+    ///
+    /// # Errors
+    /// [`StoreError`] with the path.
+    pub fn put_into(&self, store: &Store) -> Result<(), StoreError> {
+        store.check_plan()?;
+        store.records.take_from(self, &|_| {})
+    }
+
+    /// Records in memory, for another process of the same build.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        self.lock().memory.clone()
+    }
+
+    /// The records of [`Self::to_bytes`]; `None` of anything else.
+    pub fn from_bytes(bytes: &[u8]) -> Option<Self> {
+        let mut state = State {
+            memory: bytes.to_vec(),
+            ..State::default()
+        };
+        let mut are_own = true;
+        let meet = |met: Met<'_>| {
+            are_own &=
+                matches!(met, Met::Record { at, content } if state.meet(None, at, content).is_ok());
+        };
+        let end = log::read_from(&mut Cursor::new(bytes), 0, meet).ok()?;
+        (are_own && end == bytes.len() as u64).then(|| Self(Mutex::new(state)))
+    }
+}
+
+impl State {
+    fn not_encoded(&self, reason: String) -> StoreError {
+        let path = self.folder.clone().unwrap_or_default();
+        StoreError::Encode { path, reason }
+    }
+
+    /// Appends a record of this build. The folder of the logs is there once something was written.
+    fn append(&mut self, key: Key, record: &[u8]) -> Result<(), StoreError> {
         let heading = Heading {
             program_version: VERSION,
             build: BUILD,
-            sweep_hash: &state.sweep_hash,
+            sweep_hash: &self.sweep_hash,
             key,
         };
-        let mut content = postcard::to_stdvec(&heading).map_err(|error| StoreError::Encode {
-            path: state.folder.clone(),
-            reason: error.to_string(),
-        })?;
+        let encoded = postcard::to_stdvec(&heading);
+        let mut content = encoded.map_err(|error| self.not_encoded(error.to_string()))?;
         let (key, heading) = (heading.key, content.len());
         content.extend_from_slice(record);
-        let writer = match state.own.take() {
-            Some(writer) => writer,
-            None => new_segment(&state.folder)?,
+        let (log, at) = match self.folder.clone() {
+            Some(folder) => self.append_to_log(&folder, &content)?,
+            None => {
+                let framed = log::framed(&content);
+                let framed = framed.map_err(|error| self.not_encoded(error.to_string()))?;
+                self.memory.extend(framed);
+                (None, (self.memory.len() - content.len()) as u64)
+            }
         };
-        let writer = state.own.insert(writer);
-        let path = writer.path().to_path_buf();
-        let at = match writer.append(&content) {
-            Ok(at) => at,
-            Err(source) => return Err(StoreError::Write { path, source }),
-        };
-        let length = writer.length();
-        let read = state.read.entry(path);
-        let (segment, read_to) = read.or_insert_with_key(|path| (path.as_path().into(), 0));
-        *read_to = length;
         let place = Place {
-            segment: Arc::clone(segment),
+            log,
             origin: Origin::ThisBuild,
             at,
             length: content.len(),
             heading,
         };
-        state.places.insert(key, place);
+        self.places.insert(key, place);
         Ok(())
     }
-}
 
-impl State {
+    /// Appends to the log of this process; the log, and where in it the content stands.
+    fn append_to_log(
+        &mut self,
+        folder: &Path,
+        content: &[u8],
+    ) -> Result<(Option<Arc<Path>>, u64), StoreError> {
+        let writer = match self.own.take() {
+            Some(writer) => writer,
+            None => new_log(folder)?,
+        };
+        let writer = self.own.insert(writer);
+        let path = writer.path().to_path_buf();
+        let at = match writer.append(content) {
+            Ok(at) => at,
+            Err(source) => return Err(StoreError::Write { path, source }),
+        };
+        let read = self.read.entry(path);
+        let (log, read_to) = read.or_insert_with_key(|path| (path.as_path().into(), 0));
+        *read_to = writer.length();
+        Ok((Some(Arc::clone(log)), at))
+    }
+
+    /// Reads what is new in the folder; nothing in memory.
     fn look(&mut self) -> Result<(), StoreError> {
-        let first = self.looked.is_none();
-        self.looked = Some(Instant::now());
+        let first = !std::mem::replace(&mut self.has_looked, true);
+        let Some(folder) = self.folder.clone() else {
+            return Ok(());
+        };
         let failed = |path: &Path| {
             let path = path.to_path_buf();
             move |source| StoreError::Read { path, source }
         };
-        let folder = self.folder.clone();
         let entries = match fs::read_dir(&folder) {
-            Ok(entries) => entries,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
-            Err(source) => return Err(failed(&folder)(source)),
+            entries => entries.map_err(failed(&folder))?,
         };
         let mut paths = Vec::new();
         for entry in entries {
             let path = entry.map_err(failed(&folder))?.path();
-            match path.extension().is_some_and(|ending| ending == ENDING) {
-                true => paths.push(path),
-                false if first => self.unread.extend(other_file(path)),
-                false => {}
+            match path.extension().and_then(|ending| ending.to_str()) {
+                Some(ENDING) => paths.push(path),
+                Some("json") if first => self.unread.push(Unread {
+                    path,
+                    reason: "a record of an earlier version of the program, which kept one file per case: it is not used".to_owned(),
+                }),
+                _ => {}
             }
         }
         // Whatever the order in which a system lists them.
@@ -238,48 +498,80 @@ impl State {
         Ok(())
     }
 
-    /// Reads what a segment has grown by.
+    /// Reads what a log has grown by.
     fn look_at(&mut self, path: &Path) -> io::Result<()> {
         let known = self.read.get(path).cloned();
         let is_first = known.is_none();
-        let (segment, from) = known.unwrap_or_else(|| (Arc::from(path), 0));
+        let (log, from) = known.unwrap_or_else(|| (Arc::from(path), 0));
         let length = fs::metadata(path)?.len();
         if length <= from {
             return Ok(());
         }
-        let mut unread = |reason: String| {
-            let path = path.to_path_buf();
-            self.unread.push(Unread { path, reason });
-        };
-        let to = segment::read(path, from, |met| match met {
-            Met::Damaged { from, to } => unread(format!(
+        let mut reasons = Vec::new();
+        let to = log::read(path, from, |met| match met {
+            Met::Damaged { from, to } => reasons.push(format!(
                 "bytes {from} to {to} are damaged or torn {NOT_USED}"
             )),
             Met::Record { at, content } => {
-                match place(&segment, at, content, &self.sweep_hash) {
-                    // Of several records of a case the one of this build counts, and of several of these the first.
-                    Ok((key, place)) => match self.places.get(&key) {
-                        Some(known) if known.origin <= place.origin => {}
-                        _ => drop(self.places.insert(key, place)),
-                    },
-                    Err(reason) => unread(reason),
-                }
+                reasons.extend(self.meet(Some(&log), at, content).err());
             }
         })?;
-        // A process that is killed leaves such an end, and one at work for a moment too: it is told once.
+        // A process that is killed leaves such an end, and one at work for a moment too: it is reported once.
         if to < length && is_first {
             let torn = length - to;
-            unread(format!(
+            reasons.push(format!(
                 "its last {torn} bytes are damaged or torn {NO_END}"
             ));
         }
-        self.read.insert(path.to_path_buf(), (segment, to));
+        let path = path.to_path_buf();
+        self.unread.extend(reasons.into_iter().map(|reason| Unread {
+            path: path.clone(),
+            reason,
+        }));
+        self.read.insert(path, (log, to));
+        Ok(())
+    }
+
+    /// Takes in where a whole record stands; why it is not used where it is of something else.
+    fn meet(&mut self, log: Option<&Arc<Path>>, at: u64, content: &[u8]) -> Result<(), String> {
+        let heading = postcard::take_from_bytes::<Heading<'_>>(content);
+        let (heading, record) = heading.map_err(|_| "a record in it has no heading".to_owned())?;
+        if heading.sweep_hash != self.sweep_hash {
+            return Err("a record in it belongs to another sweep".to_owned());
+        }
+        let place = Place {
+            log: log.cloned(),
+            origin: Origin::of(heading.program_version, heading.build),
+            at,
+            length: content.len(),
+            heading: content.len() - record.len(),
+        };
+        // Of several records of a case the one of this build counts, and of several of these the first.
+        match self.places.get(&heading.key) {
+            Some(known) if known.origin <= place.origin => {}
+            _ => drop(self.places.insert(heading.key, place)),
+        }
         Ok(())
     }
 }
 
-/// A segment that no other process has.
-fn new_segment(folder: &Path) -> Result<SegmentWriter, StoreError> {
+impl Origin {
+    fn of(version: &str, build: &str) -> Self {
+        match numbers_of(version).cmp(&numbers_of(VERSION)) {
+            std::cmp::Ordering::Less => Self::Older(version.to_owned()),
+            std::cmp::Ordering::Greater => Self::Newer(version.to_owned()),
+            std::cmp::Ordering::Equal if build == BUILD => Self::ThisBuild,
+            std::cmp::Ordering::Equal => Self::AnotherBuild,
+        }
+    }
+}
+
+fn written_by(version: &str, age: &str) -> String {
+    format!("it was written by version {version} of the program, {age} than this one")
+}
+
+/// A log that no other process has.
+fn new_log(folder: &Path) -> Result<LogWriter, StoreError> {
     create_folder(folder)?;
     let host: String = provenance::host().unwrap_or_default();
     let host = host.replace(|c: char| !c.is_ascii_alphanumeric() && c != '-', "");
@@ -288,7 +580,7 @@ fn new_segment(folder: &Path) -> Result<SegmentWriter, StoreError> {
     loop {
         // Systems number their processes from the beginning again and again.
         let path = folder.join(format!("{host}-{process}-{count}.{ENDING}"));
-        match SegmentWriter::create(&path) {
+        match LogWriter::create(&path) {
             Ok(writer) => {
                 sync_names(folder);
                 return Ok(writer);
@@ -306,47 +598,348 @@ fn sync_names(folder: &Path) {
     }
 }
 
-/// The case and the place of a whole record; why it is not used where it is of something else.
-fn place(
-    segment: &Arc<Path>,
-    at: u64,
-    content: &[u8],
-    sweep_hash: &str,
-) -> Result<(Key, Place), String> {
-    let heading = postcard::take_from_bytes::<Heading<'_>>(content);
-    let (heading, record) = heading.map_err(|_| "a record in it has no heading".to_owned())?;
-    let version = heading.program_version;
-    let origin = match numbers(version).cmp(&numbers(VERSION)) {
-        std::cmp::Ordering::Less => Origin::Older(version.to_owned()),
-        std::cmp::Ordering::Greater => Origin::Newer(version.to_owned()),
-        std::cmp::Ordering::Equal if heading.build == BUILD => Origin::ThisBuild,
-        std::cmp::Ordering::Equal => Origin::AnotherBuild,
-    };
-    if heading.sweep_hash != sweep_hash {
-        return Err("a record in it belongs to another sweep".to_owned());
-    }
-    let place = Place {
-        segment: Arc::clone(segment),
-        origin,
-        at,
-        length: content.len(),
-        heading: content.len() - record.len(),
-    };
-    Ok((heading.key, place))
-}
-
-/// A file among the segments that is none; files half-written by earlier versions say nothing.
-fn other_file(path: PathBuf) -> Option<Unread> {
-    let is_record = path.extension().is_some_and(|ending| ending == "json");
-    is_record.then(|| Unread {
-        path,
-        reason: "a record of an earlier version of the program, which kept one file per case: it is not used".to_owned(),
-    })
-}
-
 /// The numbers of a version; what is no number counts as 0.
-fn numbers(version: &str) -> Vec<u64> {
+fn numbers_of(version: &str) -> Vec<u64> {
     let release = version.split(['-', '+']).next().unwrap_or_default();
     let parts = release.split('.');
     parts.map(|part| part.parse().unwrap_or(0)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sweep::Sweep;
+    use crate::sweep::case::Setup;
+    use crate::sweep::plan::resolved::resolved_text;
+    use crate::sweep::plan::{self, Method};
+    use crate::sweep::record::Status;
+    use crate::sweep::search::run;
+
+    const PLAN: &str = "title = \"a\"\n";
+
+    fn case() -> Case {
+        Case {
+            index: 7,
+            angular_frequency_rad_per_s: 0.1 + 0.2,
+            condition: plan::tests::condition(),
+        }
+    }
+
+    fn record(case: &Case) -> CaseRecord {
+        CaseRecord {
+            index: case.index,
+            angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
+            varied: case.condition.values,
+            drive_mean: case.condition.drive.mean(),
+            drive_amplitude: case.condition.drive.amplitude(),
+            status: Status::NotConverged,
+            message: Some("reached \"nothing\"".to_owned()),
+            warnings: vec![
+                crate::sweep::record::warning::Warning::LargeStrain { strain: 0.1 + 0.2 },
+                crate::sweep::record::warning::Warning::NoErrorBars {
+                    because: crate::sweep::record::warning::NoErrorBars::OwnCells,
+                },
+            ],
+            method: Method::March,
+            steps: 200,
+            nodes: 400,
+            cycles: 1000,
+            steady_distance: Some(1.0 / 3.0),
+            domain_half_width_m: 1e-3,
+            domain_enlarged: 0,
+            work: crate::history::Work {
+                instants: 1_234,
+                iterations: 12_345,
+                convolutions: 0,
+            },
+            result: None,
+        }
+    }
+
+    fn open(folder: &tempfile::TempDir) -> Store {
+        Store::open(folder.path(), PLAN, false).unwrap()
+    }
+
+    /// The segment of a folder that has one.
+    fn segment_of(folder: &tempfile::TempDir) -> PathBuf {
+        let mut entries = std::fs::read_dir(folder.path().join("records")).unwrap();
+        entries.next().unwrap().unwrap().path()
+    }
+
+    #[test]
+    fn a_record_comes_back_bit_for_bit_in_every_process_and_only_for_its_own_case() {
+        let folder = tempfile::TempDir::new().unwrap();
+        let (store, case) = (open(&folder), case());
+        let intact = || Kept::Intact(Box::new(record(&case)));
+        for purpose in [Purpose::Sweep, Purpose::Peak] {
+            let another = open(&folder);
+            assert_eq!(
+                another.records().load(purpose, &case, false).unwrap(),
+                Kept::Absent
+            );
+            store
+                .records()
+                .insert(purpose, &case, &record(&case))
+                .unwrap();
+            assert_eq!(
+                store.records().load(purpose, &case, false).unwrap(),
+                intact()
+            );
+            another.records().look().unwrap();
+            assert_eq!(
+                another.records().load(purpose, &case, false).unwrap(),
+                intact()
+            );
+        }
+        let other = Case {
+            angular_frequency_rad_per_s: 0.3,
+            ..case.clone()
+        };
+        let kept = store.records().load(Purpose::Sweep, &other, false).unwrap();
+        assert_eq!(kept, Kept::Absent);
+    }
+
+    #[test]
+    fn a_solved_case_comes_back_with_its_cycle_and_a_peak_without() {
+        let plan = crate::sweep::plan::SweepPlan::new(
+            crate::material::library::find("pmma")
+                .unwrap()
+                .material()
+                .unwrap(),
+            plan::tests::condition().indenter,
+            plan::tests::condition().drive,
+        );
+        let mut plan = plan;
+        plan.angular_frequencies_rad_per_s = vec![0.1 + 0.2];
+        (plan.cycle.steps, plan.contact.solver.springs) = (32, 40);
+        let setup = crate::sweep::case::Setup::new(plan).unwrap();
+        let case = Case {
+            condition: setup.plan().condition(),
+            ..case()
+        };
+        let interrupt = std::sync::atomic::AtomicBool::new(false);
+        let solved = setup.run(&case, &interrupt).unwrap();
+        assert!(solved.result.as_ref().unwrap().cycle.is_held());
+        let folder = tempfile::TempDir::new().unwrap();
+        let store = open(&folder);
+        for (purpose, expected) in [
+            (Purpose::Peak, solved.without_cycle()),
+            (Purpose::Sweep, solved.clone()),
+        ] {
+            store.records().insert(purpose, &case, &solved).unwrap();
+            let Kept::Intact(mut found) = store.records().load(purpose, &case, false).unwrap()
+            else {
+                panic!("no record");
+            };
+            assert_eq!(*found, solved.without_cycle());
+            store.records().load_cycle(&mut found).unwrap();
+            assert_eq!(*found, expected);
+        }
+    }
+
+    /// A record of another build is read where its mark is of this form, whatever that build meant by its bytes.
+    #[test]
+    fn records_of_another_form_have_another_mark() {
+        let case = case();
+        let mut record = record(&case);
+        let result = serde_json::json!({
+            "analysis": {
+                "energy_loss_j": 1.0, "polygon_loss_j": 1.0, "phase_lag_rad": 0.1, "load_mean_n": 1.0,
+                "approach_mean_m": 1.0, "harmonics": []
+            },
+            "storage_modulus_pa": 1.0, "loss_modulus_pa": null,
+            "approach_m": {"minimum": 0.0, "maximum": 1.0},
+            "contact_radius_m": {"minimum": 0.0, "maximum": 1.0},
+            "contact_duty": {"part": 1.0, "error": 0.0},
+            "tabor_parameter": 2.0, "peak_pressure_pa": {"minimum": 0.0, "maximum": 1.0},
+            "errors": {"bars": {"energy_loss": {"steps": 1.0, "nodes": 2.0, "steady": 3.0, "material": 4.0}}},
+            "replica_losses_j": [1.0, null],
+            "branches": [{"retardation_time_s": 1.0, "energy_loss_j": 1.0, "indenter_share": 0.5}],
+            "cycle": {
+                "samples": {
+                    "time_s": [0.0, 1.0], "load_n": [1.0, 2.0], "approach_m": [1.0, 2.0],
+                    "contact_radius_m": [1.0, 2.0], "peak_pressure_pa": [1.0, null]
+                },
+                "pressures": [{
+                    "quarter": "mean-rising", "time_s": 0.0, "load_n": 1.0, "approach_m": 1.0, "contact_radius_m": 1.0,
+                    "lines": [{"along": "radius", "position_m": [0.0], "pressure_pa": [null]}]
+                }],
+                "surface_loss": {"Radial": {"radius_m": [0.0], "density_j_per_m2": [1.0]}}
+            }
+        });
+        record.result = Some(serde_json::from_value(result).unwrap());
+        let sum = crc32fast::hash(&encoded(&record).unwrap());
+        // Where this fails, records have another form: write its sum here, and count the last byte of `log::MARK` up.
+        assert_eq!(sum, 0xa2ed_b841, "{sum:#x}");
+    }
+
+    #[test]
+    fn every_flipped_byte_of_a_record_is_named_and_the_record_before_it_stays() {
+        let folder = tempfile::TempDir::new().unwrap();
+        let (store, first) = (open(&folder), case());
+        let second = Case {
+            angular_frequency_rad_per_s: 0.5,
+            ..first.clone()
+        };
+        for case in [&first, &second] {
+            store
+                .records()
+                .insert(Purpose::Sweep, case, &record(case))
+                .unwrap();
+        }
+        drop(store);
+        let path = segment_of(&folder);
+        let whole = std::fs::read(&path).unwrap();
+        for byte in whole.len() / 2..whole.len() {
+            let mut damaged = whole.clone();
+            damaged[byte] ^= 0x20;
+            std::fs::write(&path, damaged).unwrap();
+            let store = open(&folder);
+            let unread = store.records().look().unwrap();
+            assert_eq!(unread.len(), 1, "byte {byte}");
+            assert!(unread[0].reason.contains("damaged or torn"), "{unread:?}");
+            let kept = [&first, &second]
+                .map(|case| store.records().load(Purpose::Sweep, case, false).unwrap());
+            assert!(matches!(kept, [Kept::Intact(_), Kept::Absent]), "{byte}");
+        }
+    }
+
+    #[test]
+    fn the_torn_end_of_a_segment_without_any_whole_record_is_told_once() {
+        let folder = tempfile::TempDir::new().unwrap();
+        let (store, case) = (open(&folder), case());
+        let saved = store
+            .records()
+            .insert(Purpose::Sweep, &case, &record(&case));
+        saved.unwrap();
+        drop(store);
+        let path = segment_of(&folder);
+        let whole = std::fs::read(&path).unwrap();
+        std::fs::write(&path, &whole[..whole.len() - 1]).unwrap();
+        let store = open(&folder);
+        let told = [(); 3].map(|()| store.records().look().unwrap().len());
+        assert_eq!(told, [1, 0, 0]);
+        // The process that was writing it comes to the end of its record.
+        std::fs::write(&path, &whole).unwrap();
+        assert!(store.records().look().unwrap().is_empty());
+        let kept = store.records().load(Purpose::Sweep, &case, false).unwrap();
+        assert!(matches!(kept, Kept::Intact(_)));
+    }
+
+    #[test]
+    fn records_of_other_versions_are_not_used_and_what_is_no_segment_is_named() {
+        let case = case();
+        // The heading of a record begins with the version and the build.
+        let with = |from: &str, to: &str| {
+            let folder = tempfile::TempDir::new().unwrap();
+            let store = open(&folder);
+            let saved = store
+                .records()
+                .insert(Purpose::Sweep, &case, &record(&case));
+            saved.unwrap();
+            let path = segment_of(&folder);
+            let mut content = Vec::new();
+            let meet = |met: Met<'_>| {
+                if let Met::Record { content: of, .. } = met {
+                    content = of.to_vec();
+                }
+            };
+            log::read(&path, 0, meet).unwrap();
+            let at = content
+                .windows(from.len())
+                .position(|part| part == from.as_bytes());
+            assert_eq!(from.len(), to.len());
+            let at = at.unwrap();
+            content[at..at + from.len()].copy_from_slice(to.as_bytes());
+            std::fs::write(&path, log::framed(&content).unwrap()).unwrap();
+            folder
+        };
+        let build = crate::sweep::store::provenance::BUILD;
+        let folder = with(build, &"0".repeat(build.len()));
+        let kept = open(&folder)
+            .records()
+            .load(Purpose::Sweep, &case, false)
+            .unwrap();
+        assert!(
+            matches!(kept, Kept::OfAnotherBuild { record: found, .. } if *found == record(&case))
+        );
+        let version = env!("CARGO_PKG_VERSION");
+        let older = with(version, &version.replace(|c: char| c.is_ascii_digit(), "0"));
+        let kept = open(&older)
+            .records()
+            .load(Purpose::Sweep, &case, false)
+            .unwrap();
+        assert!(matches!(kept, Kept::Unusable { reason, .. } if reason.contains("older")));
+        let newer = with(version, &version.replace(|c: char| c.is_ascii_digit(), "9"));
+        let store = open(&newer);
+        let refused = store.records().load(Purpose::Sweep, &case, false);
+        assert!(matches!(refused, Err(StoreError::NewerProgram { .. })));
+        drop(store);
+        let forced = Store::open(newer.path(), PLAN, true).unwrap();
+        let kept = forced.records().load(Purpose::Sweep, &case, false).unwrap();
+        assert!(matches!(kept, Kept::Unusable { .. }));
+        forced
+            .records()
+            .insert(Purpose::Sweep, &case, &record(&case))
+            .unwrap();
+        let kept = open(&newer)
+            .records()
+            .load(Purpose::Sweep, &case, false)
+            .unwrap();
+        assert!(matches!(kept, Kept::Intact(_)));
+        std::fs::write(newer.path().join("records/0000.json"), "{}").unwrap();
+        let unread = open(&newer).records().look().unwrap();
+        assert!(unread[0].reason.contains("earlier version"), "{unread:?}");
+    }
+
+    /// A sweep with a peak, and its records.
+    fn solved() -> (Setup, Records) {
+        let condition = plan::tests::condition();
+        let material = condition.material.as_ref().clone();
+        let sphere = crate::indenter::Sphere::new(0.01).unwrap();
+        let sweep = Sweep::new(material, sphere, condition.drive).title("a");
+        let sweep = sweep.steps(16).unwrap().springs(16).unwrap();
+        let sweep = sweep.frequencies_hz([1e-4, 1e-3, 1e-2]).unwrap();
+        let setup = Setup::new(sweep.into_plan()).unwrap();
+        let archive = Records::default();
+        run::run(&setup, &archive, 1, &false.into(), &()).unwrap();
+        (setup, archive)
+    }
+
+    #[test]
+    fn records_that_were_moved_give_the_same_outcome_with_its_cycles_and_peaks() {
+        let (setup, archive) = solved();
+        let outcome = run::collect(&setup, &archive, &()).unwrap();
+        assert!(outcome.records.iter().all(|r| r.result.is_some()));
+        let moved = Records::from_bytes(&archive.to_bytes()).unwrap();
+        assert_eq!(run::collect(&setup, &moved, &()).unwrap(), outcome);
+
+        let folder = tempfile::TempDir::new().unwrap();
+        let store = Store::open(folder.path(), &resolved_text(setup.plan()), false).unwrap();
+        // The second time there is nothing left to do.
+        for _ in 0..2 {
+            archive.put_into(&store).unwrap();
+            assert_eq!(run::collect(&setup, &store, &()).unwrap(), outcome);
+        }
+        let records = folder.path().join("records");
+        let length =
+            |entry: std::io::Result<std::fs::DirEntry>| entry.unwrap().metadata().unwrap().len();
+        let once: u64 = std::fs::read_dir(&records).unwrap().map(length).sum();
+        archive.put_into(&store).unwrap();
+        assert_eq!(
+            std::fs::read_dir(&records)
+                .unwrap()
+                .map(length)
+                .sum::<u64>(),
+            once
+        );
+    }
+
+    #[test]
+    fn bytes_of_anything_else_are_no_records() {
+        let (_, archive) = solved();
+        let bytes = archive.to_bytes();
+        assert!(Records::from_bytes(&bytes[..bytes.len() - 1]).is_none());
+        assert!(Records::from_bytes(b"records").is_none());
+    }
 }

@@ -1,20 +1,18 @@
-//! A file to which records are appended, each sealed on its own, so that what is torn or altered is known and costs nothing else.
+//! An append-only file of records. What is damaged or torn in it is reported, and costs nothing else.
 //!
-//! A frame is a mark of eight bytes, the length of the content (four bytes, little endian), the SHA-256 of length and content, and the
-//! content. A reader that meets anything else goes on at the next mark.
+//! A record stands behind a mark of eight bytes, its length, and the CRC-32 of its content (four bytes each, little endian). A reader
+//! that meets anything else goes on at the next mark.
 
 use std::fs::{File, OpenOptions};
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufRead, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 
-use sha2::{Digest, Sha256};
-
-const MARK: &[u8; 8] = b"\xc7dma\r\n\x1a\x01";
-const HASH_BYTES: usize = 32;
-const HEAD_BYTES: usize = MARK.len() + 4 + HASH_BYTES;
+/// Its last byte numbers the form of the records.
+const MARK: &[u8; 8] = b"\xc7dma\r\n\x1a\x02";
+const HEAD_BYTES: usize = MARK.len() + 8;
 /// Appended records reach the disk within this time; a process that is killed loses none of them, a machine that loses its power
 /// those of this time.
 const SYNC: Duration = Duration::from_secs(1);
@@ -23,7 +21,7 @@ const CHUNK: usize = 1 << 20;
 
 /// A file open for appending, which no other process appends to.
 #[derive(Debug)]
-pub struct SegmentWriter {
+pub struct LogWriter {
     path: PathBuf,
     length: u64,
     disk: Arc<Disk>,
@@ -49,7 +47,7 @@ impl Disk {
     }
 }
 
-impl SegmentWriter {
+impl LogWriter {
     /// Creates a file in a folder that is there.
     ///
     /// # Errors
@@ -57,10 +55,10 @@ impl SegmentWriter {
     pub fn create(path: &Path) -> io::Result<Self> {
         let mut options = OpenOptions::new();
         let file = options.append(true).create_new(true).open(path)?;
-        Ok(Self::of(path, file))
+        Ok(Self::new(path, file))
     }
 
-    fn of(path: &Path, file: File) -> Self {
+    fn new(path: &Path, file: File) -> Self {
         Self {
             path: path.to_path_buf(),
             length: 0,
@@ -83,10 +81,10 @@ impl SegmentWriter {
     /// # Errors
     /// Of the file system.
     pub fn append(&mut self, content: &[u8]) -> io::Result<u64> {
-        let frame = sealed(content)?;
+        let frame = framed(content)?;
         let mut file = &self.disk.file;
         if let Err(error) = file.write_all(&frame) {
-            // Should this fail too, the next reader finds a torn frame.
+            // Should this fail too, the next reader finds a torn record.
             let _ = file.set_len(self.length);
             return Err(error);
         }
@@ -131,35 +129,43 @@ impl SegmentWriter {
     }
 }
 
-impl Drop for SegmentWriter {
+impl Drop for LogWriter {
     fn drop(&mut self) {
         // Whoever wants to know of an error calls `finish` before.
         let _ = self.finish();
     }
 }
 
-/// The frame of a record.
+/// A record as it stands in a log.
 ///
 /// # Errors
 /// Of a record above 4 GB.
-pub fn sealed(content: &[u8]) -> io::Result<Vec<u8>> {
+pub fn framed(content: &[u8]) -> io::Result<Vec<u8>> {
     let length = u32::try_from(content.len())
-        .map_err(|_| io::Error::new(io::ErrorKind::InvalidData, "a record above 4 GB"))?;
-    let mut frame = Vec::with_capacity(HEAD_BYTES + content.len());
-    frame.extend_from_slice(MARK);
-    frame.extend_from_slice(&length.to_le_bytes());
-    frame.extend_from_slice(&hash(length, content));
-    frame.extend_from_slice(content);
-    Ok(frame)
+        .map_err(|_| io::Error::new(ErrorKind::InvalidData, "a record above 4 GB"))?;
+    let head = [
+        length.to_le_bytes(),
+        checksum(length, content).to_le_bytes(),
+    ];
+    Ok([MARK, head.as_flattened(), content].concat())
 }
 
-/// Whether a file is one of records.
+/// Of the length too, so that an altered one is found.
+fn checksum(length: u32, content: &[u8]) -> u32 {
+    let mut sum = crc32fast::Hasher::new();
+    sum.update(&length.to_le_bytes());
+    sum.update(content);
+    sum.finalize()
+}
+
+/// Whether a file is a log, in this form or in that of another version of the program.
 pub(super) fn is_one(path: &Path) -> bool {
     let mut mark = [0; MARK.len()];
-    File::open(path).is_ok_and(|mut file| file.read_exact(&mut mark).is_ok()) && mark == *MARK
+    let read = File::open(path).and_then(|mut file| file.read_exact(&mut mark));
+    read.is_ok() && mark[..MARK.len() - 1] == MARK[..MARK.len() - 1]
 }
 
-/// What a reader meets in a file.
+/// What a reader meets in a log.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Met<'a> {
     /// The content of a record, and where it begins.
@@ -168,124 +174,99 @@ pub enum Met<'a> {
     Damaged { from: u64, to: u64 },
 }
 
-/// Reads a file from a place on and says what it meets; where the last record ends, which is where another reading goes on. Bytes behind
-/// that may be a record that is being written, or was when its process was killed.
+/// Reads a log from a place on and says what it meets; where the last record ends, which is where another reading goes on. Bytes
+/// behind that may be a record that is being written, or was when its process was killed.
 ///
 /// # Errors
 /// Of the file system.
-pub fn read(path: &Path, from: u64, mut meet: impl FnMut(Met<'_>)) -> io::Result<u64> {
-    let mut file = File::open(path)?;
+pub fn read(path: &Path, from: u64, meet: impl FnMut(Met<'_>)) -> io::Result<u64> {
+    let mut file = BufReader::with_capacity(CHUNK, File::open(path)?);
     file.seek(SeekFrom::Start(from))?;
-    // What was read and not understood yet, of which the first byte stands here in the file.
-    let (mut window, mut start) = (Vec::new(), from);
+    read_from(&mut file, from, meet)
+}
+
+/// The same of a log that is open at that place.
+pub(super) fn read_from(
+    log: &mut (impl BufRead + Seek),
+    from: u64,
+    mut meet: impl FnMut(Met<'_>),
+) -> io::Result<u64> {
+    let (mut at, mut whole_to) = (from, from);
     let mut damaged: Option<u64> = None;
-    let mut ended = false;
-    let mut whole_to = from;
+    let mut content = Vec::new();
     loop {
-        let mut at = 0;
-        loop {
-            let place = start + at as u64;
-            match frame(&window[at..]) {
-                Frame::Whole(length) => {
-                    if let Some(from) = damaged.take() {
-                        meet(Met::Damaged { from, to: place });
-                    }
-                    let content = &window[at + HEAD_BYTES..at + HEAD_BYTES + length];
-                    let at_byte = place + HEAD_BYTES as u64;
-                    meet(Met::Record {
-                        at: at_byte,
-                        content,
-                    });
-                    at += HEAD_BYTES + length;
-                    whole_to = start + at as u64;
-                }
-                Frame::Other => {
-                    damaged.get_or_insert(place);
-                    at += 1 + next_mark(&window[at + 1..]);
-                }
-                Frame::Short if ended && at < window.len() => {
-                    // A length that lies looks like the end: a record may follow.
-                    damaged.get_or_insert(place);
-                    at += 1 + next_mark(&window[at + 1..]);
-                }
-                Frame::Short => break,
+        if next(log, &mut content)? {
+            if let Some(from) = damaged.take() {
+                meet(Met::Damaged { from, to: at });
+            }
+            at += HEAD_BYTES as u64;
+            let content = content.as_slice();
+            meet(Met::Record { at, content });
+            at += content.len() as u64;
+            whole_to = at;
+        } else {
+            damaged.get_or_insert(at);
+            log.seek(SeekFrom::Start(at + 1))?;
+            match next_mark(log, at + 1)? {
+                Some(mark_at) => at = mark_at,
+                None => return Ok(whole_to),
             }
         }
-        window.drain(..at);
-        start += at as u64;
-        if ended {
-            return Ok(whole_to);
-        }
-        let before = window.len();
-        // A long record is read in as many steps as doubling takes.
-        let more = CHUNK.max(before) as u64;
-        (&mut file).take(more).read_to_end(&mut window)?;
-        ended = window.len() == before;
     }
 }
 
-/// The content at a place that [`read`] or [`SegmentWriter::append`] has named, checked again.
+/// The content at a place that [`read`] or [`LogWriter::append`] has named, checked again.
 ///
 /// # Errors
 /// Of the file system, and where the bytes there are no longer what they were.
 pub fn content(path: &Path, at: u64, length: usize) -> io::Result<Vec<u8>> {
     let mut file = File::open(path)?;
     file.seek(SeekFrom::Start(at.saturating_sub(HEAD_BYTES as u64)))?;
-    let mut bytes = vec![0; HEAD_BYTES + length];
-    file.read_exact(&mut bytes)?;
-    match frame(&bytes) {
-        Frame::Whole(found) if found == length => Ok(bytes.split_off(HEAD_BYTES)),
+    let mut content = Vec::with_capacity(length);
+    match next(&mut file, &mut content)? {
+        true if content.len() == length => Ok(content),
         _ => Err(io::Error::new(
-            io::ErrorKind::InvalidData,
+            ErrorKind::InvalidData,
             "a record in it has changed since it was first read; run the command again, and the record counts as damaged",
         )),
     }
 }
 
-enum Frame {
-    /// With so many bytes of content.
-    Whole(usize),
-    /// It may become one with more bytes.
-    Short,
-    Other,
-}
-
-fn frame(bytes: &[u8]) -> Frame {
-    let mark = &MARK[..bytes.len().min(MARK.len())];
-    if !bytes.starts_with(mark) {
-        return Frame::Other;
+/// Reads the record that begins here into `content`; `false` where there is none, or not all of it.
+fn next(log: &mut impl Read, content: &mut Vec<u8>) -> io::Result<bool> {
+    let mut head = [0; HEAD_BYTES];
+    match log.read_exact(&mut head) {
+        Err(error) if error.kind() == ErrorKind::UnexpectedEof => return Ok(false),
+        read => read?,
     }
-    let Some((head, rest)) = bytes.split_at_checked(HEAD_BYTES) else {
-        return Frame::Short;
+    let Some([length, sum]) = head.strip_prefix(MARK).map(|rest| {
+        let number = |from: usize| [rest[from], rest[from + 1], rest[from + 2], rest[from + 3]];
+        [number(0), number(4)].map(u32::from_le_bytes)
+    }) else {
+        return Ok(false);
     };
-    let (length, sum) = head[MARK.len()..].split_at(4);
-    let length = u32::from_le_bytes([length[0], length[1], length[2], length[3]]);
-    match rest.get(..length as usize) {
-        None => Frame::Short,
-        Some(content) if hash(length, content) == sum => Frame::Whole(content.len()),
-        Some(_) => Frame::Other,
-    }
+    content.clear();
+    // Of a length that was altered no more is taken than there is.
+    log.take(length.into()).read_to_end(content)?;
+    Ok(content.len() == length as usize && checksum(length, content) == sum)
 }
 
-fn hash(length: u32, content: &[u8]) -> [u8; HASH_BYTES] {
-    let mut hash = Sha256::new();
-    hash.update(length.to_le_bytes());
-    hash.update(content);
-    hash.finalize().into()
-}
-
-/// Bytes before the next mark, or before what may be the beginning of one.
-fn next_mark(bytes: &[u8]) -> usize {
-    let mut at = 0;
-    while let Some(found) = bytes[at..].iter().position(|byte| *byte == MARK[0]) {
-        at += found;
-        let end = bytes.len().min(at + MARK.len());
-        if MARK.starts_with(&bytes[at..end]) {
-            return at;
+/// Where the next mark begins, from this place on, at which the log is open; it is left open at that mark.
+fn next_mark(log: &mut (impl BufRead + Seek), mut at: u64) -> io::Result<Option<u64>> {
+    loop {
+        at += log.skip_until(MARK[0])? as u64;
+        let mut rest = [0; MARK.len() - 1];
+        match log.read_exact(&mut rest) {
+            Err(error) if error.kind() == ErrorKind::UnexpectedEof => return Ok(None),
+            read => read?,
         }
-        at += 1;
+        let is_mark = rest == MARK[1..];
+        let back = if is_mark { MARK.len() } else { rest.len() };
+        log.seek_relative(-(back as i64))?;
+        if is_mark {
+            return Ok(Some(at - 1));
+        }
     }
-    bytes.len()
 }
 
 #[cfg(test)]
@@ -299,7 +280,7 @@ mod tests {
     }
 
     fn write(path: &Path) -> Vec<u8> {
-        let mut writer = SegmentWriter::create(path).unwrap();
+        let mut writer = LogWriter::create(path).unwrap();
         for content in contents() {
             let at = writer.append(&content).unwrap();
             assert_eq!(super::content(path, at, content.len()).unwrap(), content);
@@ -360,7 +341,7 @@ mod tests {
     #[test]
     fn records_reach_the_disk_within_a_second_though_no_other_follows() {
         let folder = tempfile::tempdir().unwrap();
-        let mut writer = SegmentWriter::create(&folder.path().join("a.segment")).unwrap();
+        let mut writer = LogWriter::create(&folder.path().join("a.segment")).unwrap();
         // The second of two that end together, too.
         writer.append(b"first").unwrap();
         writer.append(b"second").unwrap();
@@ -379,7 +360,7 @@ mod tests {
         // It takes everything and cannot be synchronised.
         let path = Path::new("/dev/null");
         let file = OpenOptions::new().write(true).open(path).unwrap();
-        let mut writer = SegmentWriter::of(path, file);
+        let mut writer = LogWriter::new(path, file);
         assert!(writer.finish().is_ok());
         writer.append(b"first").unwrap();
         assert!(writer.finish().is_err());
@@ -404,6 +385,6 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.segment");
         write(&path);
-        assert!(SegmentWriter::create(&path).is_err());
+        assert!(LogWriter::create(&path).is_err());
     }
 }
