@@ -5,7 +5,7 @@
 //! which is left out: displacements are measured from the mean plane of the surface, and the approach is that of the indenter to that
 //! plane since first touch. It has a bound, the mean gap, at which contact is full.
 //!
-//! An instant is solved by the conjugate gradients of I. A. Polonsky and L. M. Keer ([`PolonskyKeer`]) under a prescribed mean pressure.
+//! An instant is solved by the conjugate gradients of I. A. Polonsky and L. M. Keer (`PolonskyKeer`) under a prescribed mean pressure.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
