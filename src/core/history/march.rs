@@ -26,23 +26,6 @@ pub struct March<'a, M = Memory> {
     work: Work,
 }
 
-/// A march at one of its instants: enough to go on from there, bit for bit.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct MarchState {
-    /// As [`Memory::variables`].
-    pub variables: Vec<f64>,
-    pub last: LastInstant,
-}
-
-/// The instant that a march stands at, but for the memory.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct LastInstant {
-    /// Nodal pressure, the guess for the next instant.
-    pub pressure: Vec<f64>,
-    pub solution: Option<Solution>,
-    pub work: Work,
-}
-
 /// A march between the halves of a step, where a long instant may be given up: enough to go on from there, bit for bit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StepState {
@@ -323,17 +306,13 @@ impl<'a, M: Hereditary> March<'a, M> {
         if fits {
             self.extrapolation.clone_from(&state.course);
             self.history.copy_from_slice(&state.history);
-            self.resume(&state.guess, state.solution, state.work);
+            self.pressure.copy_from_slice(&state.guess);
+            if let Some(last) = &state.solution {
+                self.engine.resume_from(last);
+            }
+            (self.solution, self.work) = (state.solution, state.work);
         }
         fits
-    }
-
-    fn resume(&mut self, pressure: &[f64], solution: Option<Solution>, work: Work) {
-        self.pressure.copy_from_slice(pressure);
-        if let Some(last) = &solution {
-            self.engine.resume_from(last);
-        }
-        (self.solution, self.work) = (solution, work);
     }
 
     /// What the nodal pressure of each node is multiplied by to give its part of the load.
@@ -412,40 +391,6 @@ impl March<'_> {
         Ok(self.count(solution))
     }
 
-    /// Where the march stands, for [`March::restore`]; a fluid's flow is not part of it.
-    pub fn state(&self) -> MarchState {
-        MarchState {
-            variables: self.memory.variables().to_vec(),
-            last: self.last_instant(),
-        }
-    }
-
-    /// The instant it stands at, without the memory.
-    pub fn last_instant(&self) -> LastInstant {
-        LastInstant {
-            pressure: self.pressure.clone(),
-            solution: self.solution,
-            work: self.work,
-        }
-    }
-
-    /// Goes back to where a march of the same engine and compliance stood. False, and nothing done, where the state is one
-    /// of other nodes or branches.
-    pub fn restore(&mut self, state: &MarchState) -> bool {
-        let fits = state.variables.len() == self.memory.variables().len();
-        fits && self.restore_with(&state.variables, &state.last)
-    }
-
-    /// The same with a memory that is known from elsewhere.
-    pub fn restore_with(&mut self, variables: &[f64], last: &LastInstant) -> bool {
-        let fits = last.pressure.len() == self.pressure.len();
-        if fits {
-            self.recall(variables);
-            self.resume(&last.pressure, last.solution, last.work);
-        }
-        fits
-    }
-
     /// Goes back to memory variables known from before, branch-major as in [`Memory::variables`]. The pressure stays as the
     /// guess for the next instant, which must be a jump.
     pub fn recall(&mut self, variables: &[f64]) {
@@ -460,8 +405,7 @@ impl March<'_> {
         }
     }
 
-    /// Lets the next instant start from the last pressure alone, as after [`March::restore`]: a march that forgets its course
-    /// wherever it might be stopped goes on from there with the same bits.
+    /// Lets the next instant start from the last pressure alone.
     pub fn reset_predictor(&mut self) {
         if let Some(extrapolation) = &mut self.extrapolation {
             extrapolation.forget();

@@ -47,6 +47,6 @@ pub use direct::{ComplianceFunction, DirectMemory};
 pub use dissipation::Dissipation;
 pub use extrapolation::Extrapolation;
 pub use hereditary::{DirectStep, Hereditary, PastState, Stage, TimeRule};
-pub use march::{LastInstant, March, MarchState, Observer, StepState};
+pub use march::{March, Observer, StepState};
 pub use memory::{Memory, StepWeights, order_of_steps};
 pub use work::Work;

@@ -12,7 +12,7 @@ const DEPTH: usize = 8;
 const BLOCK: usize = 1 << 14;
 
 /// Differences of the last iterates and updates.
-#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Default)]
 pub struct Anderson {
     iterate: Vec<f64>,
     update: Vec<f64>,
@@ -21,13 +21,6 @@ pub struct Anderson {
 }
 
 impl Anderson {
-    /// Whether it can look back on this number of variables.
-    pub(super) fn fits(&self, variables: usize) -> bool {
-        let changes = self.changes.iter().flat_map(|(a, b)| [a, b]);
-        let mut all = changes.chain([&self.iterate, &self.update]);
-        all.all(|vector| [0, variables].contains(&vector.len()))
-    }
-
     /// Forgets everything: the next step is plain.
     pub(super) fn reset(&mut self) {
         *self = Self::default();

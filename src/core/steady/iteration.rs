@@ -5,7 +5,7 @@ use super::correction::{ContactHistory, Correction};
 use super::remaining::Remaining;
 use crate::contact::{ContactError, Prescribed, Solution};
 use crate::cycle;
-use crate::history::{LastInstant, March, Stage, StepWeights};
+use crate::history::{March, Stage, StepWeights};
 
 /// One cycle of the drive.
 pub struct Cycle<'a> {
@@ -40,50 +40,6 @@ pub struct Steady {
     pub distance: f64,
 }
 
-/// Where a search begins.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Begin {
-    /// From a memory (branch-major, as [`crate::history::Memory::variables`]; of the same cycle in other steps, say), or from
-    /// the body relaxed under the mean.
-    Memory(Option<Vec<f64>>),
-    /// Where a search of the same cycle stood.
-    State(Box<SearchState>),
-}
-
-/// Where a search stands between two cycles: enough to go on from there, bit for bit.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct SearchState {
-    /// Memory from which the next cycle starts.
-    pub start: Vec<f64>,
-    /// The instant before that cycle.
-    pub last: LastInstant,
-    /// The best memory so far: its distance, itself, its update.
-    pub best: (f64, Vec<f64>, Vec<f64>),
-    /// What the acceleration looks back on.
-    pub anderson: Anderson,
-    /// Cycles since the best, and how often the search went back to it.
-    pub since_best: (usize, usize),
-    pub cycles: usize,
-    pub distance: f64,
-}
-
-/// Looks over a search.
-pub struct Watch<'a> {
-    /// Asked before every time step whether to stop.
-    pub stop: &'a dyn Fn() -> bool,
-    /// Told before every cycle but the first where the search stands, and once more where a cycle was given up.
-    pub between_cycles: &'a dyn Fn(&SearchState, Cause),
-}
-
-/// Why a state is told.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Cause {
-    /// The next cycle begins.
-    NextCycle,
-    /// It was given up, and this is where it began.
-    Stopped,
-}
-
 /// Cycles that may pass without a better memory before the acceleration starts anew from the best: at the edge of a strongly
 /// relaxing contact cells come and go between cycles, and what was learned of them leads in circles.
 const PATIENCE: usize = 10;
@@ -104,29 +60,11 @@ pub fn find(
     settings: SteadySettings,
     stop: &dyn Fn() -> bool,
 ) -> Result<Steady, ContactError> {
-    let watch = Watch {
-        stop,
-        between_cycles: &|_, _| {},
-    };
-    find_from(march, cycle, Begin::Memory(start), settings, &watch)
-}
-
-/// As [`find`], from wherever a search may begin, and watched. A state that is not one of this march is passed over.
-///
-/// # Errors
-/// As [`find`].
-pub fn find_from(
-    march: &mut March<'_>,
-    cycle: &Cycle<'_>,
-    begin: Begin,
-    settings: SteadySettings,
-    watch: &Watch<'_>,
-) -> Result<Steady, ContactError> {
     let compliance = march.memory().compliance();
     let remaining = Remaining::new(compliance, cycle.period_s, march.pressure().len());
     let loads = march.loads_per_nodal_pressure();
     let correction = Correction::new(compliance, (cycle.period_s, cycle.steps), &remaining, loads);
-    let mut search = SearchState::begin(march, cycle, begin)?;
+    let mut search = Search::begin(march, cycle, start)?;
     let mut converged = false;
     let nodes = march.pressure().len();
     let mut run = Run::new(march, cycle);
@@ -134,16 +72,8 @@ pub fn find_from(
     let weights = correction.weights(nodes);
     let keep_mean_load = matches!(cycle.mean, Prescribed::LoadN(_));
     while search.cycles < settings.max_cycles {
-        if search.cycles > 0 {
-            search.last = march.last_instant();
-            (watch.between_cycles)(&search, Cause::NextCycle);
-        }
         march.recall(&search.start);
-        let ended = run.cycle(march, cycle, &remaining, watch.stop);
-        if matches!(ended, Ok(false) | Err(ContactError::Interrupted)) && search.cycles > 0 {
-            (watch.between_cycles)(&search, Cause::Stopped);
-        }
-        if !ended? {
+        if !run.cycle(march, cycle, &remaining, stop)? {
             break;
         }
         search.cycles += 1;
@@ -164,28 +94,26 @@ pub fn find_from(
     })
 }
 
-impl SearchState {
-    /// Whether this can be a state with this number of memory variables.
-    fn fits(&self, variables: usize) -> bool {
-        let (since_best, setbacks) = self.since_best;
-        let vectors = [&self.start, &self.best.1, &self.best.2];
-        since_best.max(setbacks) <= self.cycles
-            && vectors.iter().all(|vector| vector.len() == variables)
-            && self.anderson.fits(variables)
-    }
+/// Where the search stands between two cycles.
+struct Search {
+    /// Memory from which the next cycle starts.
+    start: Vec<f64>,
+    /// The best memory so far: its distance, itself, its update.
+    best: (f64, Vec<f64>, Vec<f64>),
+    anderson: Anderson,
+    /// Cycles since the best, and how often the search went back to it.
+    since_best: (usize, usize),
+    cycles: usize,
+    distance: f64,
+}
 
-    fn begin(march: &mut March<'_>, cycle: &Cycle<'_>, begin: Begin) -> Result<Self, ContactError> {
-        let variables = march.memory().variables().len();
-        let memory = match begin {
-            Begin::State(state)
-                if state.fits(variables) && march.restore_with(&state.start, &state.last) =>
-            {
-                return Ok(*state);
-            }
-            Begin::State(_) => None,
-            Begin::Memory(memory) => memory,
-        };
-        let start = match memory {
+impl Search {
+    fn begin(
+        march: &mut March<'_>,
+        cycle: &Cycle<'_>,
+        start: Option<Vec<f64>>,
+    ) -> Result<Self, ContactError> {
+        let start = match start {
             Some(memory) => memory,
             None => {
                 march.relax(cycle.mean)?;
@@ -193,7 +121,6 @@ impl SearchState {
             }
         };
         Ok(Self {
-            last: LastInstant::default(),
             best: (f64::INFINITY, start.clone(), vec![0.0; start.len()]),
             start,
             anderson: Anderson::default(),

@@ -44,9 +44,6 @@ mod iteration;
 mod newton;
 mod remaining;
 
-pub use anderson::Anderson;
-pub use iteration::{
-    Begin, Cause, Cycle, SearchState, Steady, SteadySettings, Watch, find, find_from,
-};
+pub use iteration::{Cycle, Steady, SteadySettings, find};
 pub(crate) use newton::find_by_newton;
 pub use remaining::Remaining;

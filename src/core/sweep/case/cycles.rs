@@ -56,7 +56,7 @@ impl<'a> Cycles<'a> {
         march: &mut March<'_>,
         mut recording: Option<&mut Recording>,
     ) -> Result<(), CaseError> {
-        // A checkpoint may lie here.
+        // As in a search: what came before the cycle says nothing of how it begins.
         march.reset_predictor();
         self.start.clear();
         self.start.extend_from_slice(march.memory().variables());

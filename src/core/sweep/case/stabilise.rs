@@ -8,7 +8,7 @@ use crate::contact::{ContactError, Engine, Prescribed, Solution};
 use crate::cycle::LoopError;
 use crate::history::{March, Memory, TimeRule, Work};
 use crate::material::Creep;
-use crate::steady::{self, Begin, Steady, SteadySettings};
+use crate::steady::{self, Steady, SteadySettings};
 use crate::sweep::case::SetupError;
 use crate::sweep::case::checkpoint::Checkpoints;
 use crate::sweep::case::cycles::Cycles;
@@ -270,10 +270,7 @@ impl Contact<'_> {
         parts: &[f64],
     ) -> Result<Stabilised, CaseError> {
         let mut march = March::new(engine, self.compliance.clone(), self.time_rule);
-        let watch = steady::Watch {
-            stop: &|| self.interrupt.load(Ordering::Relaxed),
-            between_cycles: &|_, _| {},
-        };
+        let stop = || self.interrupt.load(Ordering::Relaxed);
         let most = SEARCH_CYCLES.min(self.cycle.max_cycles);
         let mut find = |part: f64, start: Option<Vec<f64>>, max_cycles: usize| {
             let drive = |fraction| self.in_part(part, fraction);
@@ -287,8 +284,7 @@ impl Contact<'_> {
                 tolerance: self.cycle.tolerance,
                 max_cycles,
             };
-            let begin = Begin::Memory(start);
-            let found = steady::find_from(&mut march, &cycle, begin, settings, &watch)?;
+            let found = steady::find(&mut march, &cycle, start, settings, &stop)?;
             self.check_interrupted()?;
             let memory = (found.converged).then(|| march.memory().variables().to_vec());
             Ok::<_, CaseError>((found, memory))
