@@ -12,7 +12,7 @@ use std::sync::atomic::AtomicBool;
 
 pub use super::convolution::PeriodicOperator;
 use super::instant::{Imposed, SolverSettings};
-use super::polonsky_keer::{Given, PolonskyKeer};
+use super::polonsky_keer::{Given, PolonskyKeer, Residual};
 use crate::contact::surface::{PressureLine, Response, Surface};
 use crate::contact::{
     ContactError, Engine, Instant, Prescribed, Solution, highest, sums, surface_of_cells,
@@ -74,7 +74,8 @@ impl Engine for Periodic {
         };
         let area_m2 = self.operator.grid().cell_area_m2();
         let given = Given {
-            operator: &*self.operator,
+            operator: &|p, u, scratch| self.operator.apply(p, u, scratch),
+            reference_m: Residual::displacement_range_m,
             settings: self.settings,
             gap_m: &self.gap_m,
             compliance: instant.compliance_per_pa,

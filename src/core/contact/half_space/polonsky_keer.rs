@@ -8,54 +8,13 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::convolution::{Convolution, ConvolutionError, PeriodicOperator, Scratch};
+use super::convolution::{ConvolutionError, Scratch};
 use super::instant::{Imposed, ROUNDING, STANDING_OFF, SolverSettings, start};
 use crate::contact::{ContactError, go_on};
 
-/// The elastic operator B of a surface in cells.
-pub(super) trait Operator {
-    /// Displacement (m per 1/Pa) of every cell by these pressures (Pa).
-    fn apply(
-        &self,
-        pressure: &[f64],
-        displacement: &mut [f64],
-        scratch: &mut Scratch,
-    ) -> Result<(), ConvolutionError>;
-
-    /// The displacement (m) of which the tolerance is a part; `None` while nothing is in contact.
-    fn reference_m(&self, residual: &Residual) -> Option<f64>;
-}
-
-impl Operator for Convolution {
-    fn apply(
-        &self,
-        pressure: &[f64],
-        displacement: &mut [f64],
-        scratch: &mut Scratch,
-    ) -> Result<(), ConvolutionError> {
-        self.apply(pressure, displacement, scratch)
-    }
-
-    fn reference_m(&self, residual: &Residual) -> Option<f64> {
-        (residual.work > 0.0).then(|| residual.work / residual.pressure_sum)
-    }
-}
-
-impl Operator for PeriodicOperator {
-    fn apply(
-        &self,
-        pressure: &[f64],
-        displacement: &mut [f64],
-        scratch: &mut Scratch,
-    ) -> Result<(), ConvolutionError> {
-        self.apply(pressure, displacement, scratch)
-    }
-
-    /// Without its mean, a displacement is as large as the distance between its extremes.
-    fn reference_m(&self, residual: &Residual) -> Option<f64> {
-        Some(residual.elastic_range_m)
-    }
-}
+/// The elastic operator B of a surface in cells: writes the displacement (m per 1/Pa) of every cell by these pressures (Pa).
+pub(super) type Operator<'a> =
+    dyn Fn(&[f64], &mut [f64], &mut Scratch) -> Result<(), ConvolutionError> + 'a;
 
 /// Fields of the whole grid.
 pub(super) struct PolonskyKeer {
@@ -74,8 +33,10 @@ pub(super) struct PolonskyKeer {
 }
 
 /// What does not change during an instant.
-pub(super) struct Given<'a, B> {
-    pub(super) operator: &'a B,
+pub(super) struct Given<'a> {
+    pub(super) operator: &'a Operator<'a>,
+    /// The displacement (m) of which the tolerance is a part; `None` while nothing is in contact.
+    pub(super) reference_m: fn(&Residual) -> Option<f64>,
     pub(super) settings: SolverSettings,
     pub(super) gap_m: &'a [f64],
     pub(super) compliance: f64,
@@ -110,7 +71,7 @@ impl PolonskyKeer {
     /// iterations; `None` where no pressure at all is the solution.
     pub(super) fn solve(
         &mut self,
-        given: &Given<'_, impl Operator>,
+        given: &Given<'_>,
         history: &[f64],
         pressure: &mut [f64],
         taken: usize,
@@ -128,7 +89,7 @@ impl PolonskyKeer {
     /// free gap = g + B H.
     pub(super) fn prepare_free_gap(
         &mut self,
-        given: &Given<'_, impl Operator>,
+        given: &Given<'_>,
         history: &[f64],
     ) -> Result<(), ContactError> {
         if history.iter().all(|h| *h == 0.0) {
@@ -136,8 +97,7 @@ impl PolonskyKeer {
             self.noise_m = 0.0;
             return Ok(());
         }
-        let operator = given.operator;
-        operator.apply(history, &mut self.free_gap_m, &mut self.scratch)?;
+        (given.operator)(history, &mut self.free_gap_m, &mut self.scratch)?;
         self.convolutions += 1;
         let mut largest_m = 0.0_f64;
         for (free, gap) in self.free_gap_m.iter_mut().zip(given.gap_m) {
@@ -150,10 +110,10 @@ impl PolonskyKeer {
 
     fn refresh_displacement(
         &mut self,
-        operator: &impl Operator,
+        operator: &Operator<'_>,
         pressure: &[f64],
     ) -> Result<(), ContactError> {
-        operator.apply(pressure, &mut self.displacement, &mut self.scratch)?;
+        operator(pressure, &mut self.displacement, &mut self.scratch)?;
         self.convolutions += 1;
         Ok(())
     }
@@ -205,13 +165,12 @@ impl PolonskyKeer {
     /// contact. `None` where there is no curvature.
     fn step_length(
         &mut self,
-        given: &Given<'_, impl Operator>,
+        given: &Given<'_>,
         product: f64,
         load_controlled: bool,
         pressure: &[f64],
     ) -> Result<Option<f64>, ContactError> {
-        let operator = given.operator;
-        operator.apply(&self.direction, &mut self.response, &mut self.scratch)?;
+        (given.operator)(&self.direction, &mut self.response, &mut self.scratch)?;
         self.convolutions += 1;
         let (mut sum, mut weighted, mut total, mut cells) = (0.0, 0.0, 0.0, 0usize);
         for ((&t, &r), &p) in self.direction.iter().zip(&self.response).zip(pressure) {
@@ -262,7 +221,7 @@ impl PolonskyKeer {
     /// One pass: direction, step, projection, load. False where the direction has no curvature, and nothing moved.
     fn advance(
         &mut self,
-        given: &Given<'_, impl Operator>,
+        given: &Given<'_>,
         residual: &Residual,
         state: &mut IterationState,
         pressure: &mut [f64],
@@ -301,7 +260,7 @@ impl PolonskyKeer {
     }
 
     /// Gap sums; the approach is prescribed or, under load control, found here.
-    fn residual(&self, given: &Given<'_, impl Operator>, pressure: &[f64]) -> Residual {
+    fn residual(&self, given: &Given<'_>, pressure: &[f64]) -> Residual {
         let compliance = given.compliance;
         let cells = || {
             let fields = self.free_gap_m.iter().zip(&self.displacement);
@@ -343,7 +302,7 @@ impl PolonskyKeer {
     /// The iteration. Returns the residual at the end and the iterations taken.
     pub(super) fn iterate(
         &mut self,
-        given: &Given<'_, impl Operator>,
+        given: &Given<'_>,
         pressure: &mut [f64],
         taken: usize,
     ) -> Result<(Residual, usize), ContactError> {
@@ -369,7 +328,7 @@ impl PolonskyKeer {
                 continue;
             }
             let noise_m = self.noise_m + ROUNDING * residual.approach_m.abs();
-            relative = residual.relative(operator.reference_m(&residual), tolerance, noise_m);
+            relative = residual.relative((given.reference_m)(&residual), tolerance, noise_m);
             if relative <= tolerance {
                 if state.exact {
                     return Ok((residual, iteration));
@@ -431,6 +390,16 @@ impl Residual {
     /// order.
     pub(super) fn mean_approach_m(&self) -> f64 {
         self.lifted / self.pressure_sum
+    }
+
+    /// The displacement (m) that the pressure causes, weighted by it.
+    pub(super) fn weighted_displacement_m(&self) -> Option<f64> {
+        (self.work > 0.0).then(|| self.work / self.pressure_sum)
+    }
+
+    /// Without its mean, a displacement is as large as the distance (m) between its extremes.
+    pub(super) fn displacement_range_m(&self) -> Option<f64> {
+        Some(self.elastic_range_m)
     }
 
     /// What the tolerance bounds, gaps below `noise_m` counting as none; 0 out of contact, infinite where nothing is in

@@ -26,7 +26,7 @@ use windows::Windows;
 
 use super::convolution::{Convolution, ConvolutionError};
 use super::instant::{Imposed, SolverSettings};
-use super::polonsky_keer::{Given, PolonskyKeer};
+use super::polonsky_keer::{Given, PolonskyKeer, Residual};
 use crate::contact::surface::{PressureLine, Response, Surface};
 use crate::contact::{
     ContactError, Engine, Instant, Prescribed, Solution, highest, sums, surface_of_cells,
@@ -193,7 +193,8 @@ impl HalfSpace {
         let safeguard = self.safeguard.get_or_insert_with(new);
         safeguard.convolutions = 0;
         let given = Given {
-            operator: &*self.operator,
+            operator: &|p, u, scratch| self.operator.apply(p, u, scratch),
+            reference_m: Residual::weighted_displacement_m,
             settings: self.settings,
             gap_m: &self.gap_m,
             compliance: instant.compliance_per_pa,
