@@ -21,7 +21,7 @@ use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::case::checkpoint::Checkpoints;
 use contact_dma::sweep::plan::{EngineKind, Method, SweepPlan};
 use contact_dma::sweep::store::Store;
-use contact_dma::sweep::store::records::Purpose;
+use contact_dma::sweep::store::entry::Purpose;
 
 /// Counts the bytes held, the most of them, and those ever taken.
 struct Counting;

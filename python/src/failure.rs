@@ -55,7 +55,9 @@ pub fn of_run(error: impl std::fmt::Display) -> PyErr {
 pub fn of_store(error: &StoreError) -> PyErr {
     let text = error.advised(|remedy| match remedy {
         Remedy::OtherFolder => "choose another folder",
-        Remedy::OtherFolderOrWait | Remedy::OtherFolderOrShards => "choose another folder, or wait until it has ended",
+        Remedy::OtherFolderOrWait | Remedy::OtherFolderOrShards => {
+            "choose another folder, or wait until it has ended"
+        }
         Remedy::OtherFolderOrForce => "choose another folder, or replace them with overwrite=True",
         Remedy::OtherFolderOrAdd => {
             "choose another folder, or add to this one with overwrite=True, which leaves every file that is there as it is"

@@ -25,8 +25,9 @@ use contact_dma::sweep::plan::scenario;
 use contact_dma::sweep::plan::{Case, EngineKind};
 use contact_dma::sweep::search::run::Outcome;
 use contact_dma::sweep::store::Store;
+use contact_dma::sweep::store::entry::{self, Purpose};
 use contact_dma::sweep::store::log;
-use contact_dma::sweep::store::records::{self, Kept, Purpose};
+use contact_dma::sweep::store::records::Kept;
 use sha2::{Digest, Sha256};
 use tempfile::TempDir;
 
@@ -369,7 +370,7 @@ impl Records {
             .next()
             .unwrap();
         log::read(&path.unwrap().path(), 0, meet).unwrap();
-        let packed = content.len() - records::encoded(&record).unwrap().len();
+        let packed = content.len() - entry::encoded(&record, true).unwrap().len();
         Self {
             folder,
             whole,

@@ -10,7 +10,8 @@ use contact_dma::input::document::Document;
 use contact_dma::input::sweep_file;
 use contact_dma::sweep::record::warning::Warning;
 use contact_dma::sweep::store::Store;
-use contact_dma::sweep::store::records::{Kept, Purpose};
+use contact_dma::sweep::store::entry::Purpose;
+use contact_dma::sweep::store::records::Kept;
 use serde_json::Value;
 use tempfile::TempDir;
 

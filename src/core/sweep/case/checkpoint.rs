@@ -12,7 +12,7 @@ use crate::sweep::case::stabilise::Stabilised;
 use crate::sweep::plan::Case;
 use crate::sweep::store::Store;
 use crate::sweep::store::checkpoint_file::{CheckpointFile, Rhythm};
-use crate::sweep::store::records::{Key, Purpose};
+use crate::sweep::store::entry::{Key, Purpose};
 
 /// The checkpoints of one case, in the hands of the thread that solves it.
 pub struct Checkpoints {

@@ -35,7 +35,7 @@ use crate::sweep::plan::instant_tolerance;
 use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::{Case, Condition, CyclePlan, EngineKind, SweepPlan};
 use crate::sweep::record::{CaseRecord, Status};
-use crate::sweep::store::records::Purpose;
+use crate::sweep::store::entry::Purpose;
 
 /// What all cases of a sweep share.
 pub struct Setup {

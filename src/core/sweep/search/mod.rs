@@ -20,7 +20,8 @@ use crate::sweep::plan::{AxisValues, Case, Condition};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::locate::curve_of;
 use crate::sweep::search::run::{Options, Outcome, Progress, RunError};
-use crate::sweep::store::records::{Kept, Purpose};
+use crate::sweep::store::entry::Purpose;
+use crate::sweep::store::records::Kept;
 use crate::sweep::store::{Archive, StoreError};
 
 /// What solving more cases takes.

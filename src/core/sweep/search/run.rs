@@ -15,7 +15,7 @@ use crate::sweep::record::{BranchLoss, CaseRecord, Status};
 use crate::sweep::search::Search;
 use crate::sweep::search::peak::Peak;
 use crate::sweep::share::shard::{self, Shard};
-use crate::sweep::store::records::Purpose;
+use crate::sweep::store::entry::Purpose;
 use crate::sweep::store::{Archive, StoreError, checkpoint_file};
 
 /// Why a sweep stopped without an outcome.

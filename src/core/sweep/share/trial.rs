@@ -7,7 +7,7 @@ use crate::drive::Control;
 use crate::sweep::case::{Aim, Resolution, Setup, SetupError, accuracy};
 use crate::sweep::plan::{Condition, EngineKind};
 use crate::sweep::share::cost;
-use crate::sweep::store::records;
+use crate::sweep::store::entry;
 
 /// Trials end after this time, whole cases each.
 const LONGEST: Duration = Duration::from_millis(1500);
@@ -83,7 +83,7 @@ impl Trial {
             };
             taken_s += clock.elapsed().as_secs_f64();
             expected_s += foretold_s;
-            if let Ok(encoded) = records::encoded(&record) {
+            if let Ok(encoded) = entry::encoded(&record, true) {
                 trial.record_bytes = encoded.len() as u64;
             }
             if k == most / 2 {

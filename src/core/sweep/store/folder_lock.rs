@@ -12,7 +12,10 @@ use std::path::Path;
 
 /// The file that is locked. It stays: were it removed, two processes could hold locks on two files of this name.
 pub(super) const LOCK: &str = ".contact-dma.lock";
-pub(super) const LOCK_TO_COMPUTE: &str = ".contact-dma.compute.lock";
+/// The same of the processes that compute cases there: one, or shards.
+const LOCK_TO_COMPUTE: &str = ".contact-dma.compute.lock";
+/// Every file that is locked.
+pub(super) const LOCKS: [&str; 2] = [LOCK, LOCK_TO_COMPUTE];
 
 /// Who else is at work in a folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -219,9 +219,7 @@ fn segments(folder: &Path) -> Vec<String> {
     };
     let paths = entries.flatten().map(|entry| entry.path());
     let is_segment = |path: &PathBuf| {
-        path.extension()
-            .is_some_and(|ending| ending == records::ENDING)
-            && log::is_one(path)
+        path.extension().is_some_and(|ending| ending == log::ENDING) && log::is_one(path)
     };
     let name = |path: PathBuf| {
         let name = path.file_name()?.to_str()?;

@@ -10,6 +10,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Duration;
 
+use super::{StoreError, create_folder, provenance};
+
+/// How the names of logs end.
+pub const ENDING: &str = "segment";
+
 /// Its last byte numbers the form of the records.
 const MARK: &[u8; 8] = b"\xc7dma\r\n\x1a\x02";
 const HEAD_BYTES: usize = MARK.len() + 8;
@@ -48,6 +53,30 @@ impl Disk {
 }
 
 impl LogWriter {
+    /// Creates one that no other process has, in a folder that is created where needed.
+    ///
+    /// # Errors
+    /// [`StoreError::Create`] with the path.
+    pub fn in_folder(folder: &Path) -> Result<Self, StoreError> {
+        create_folder(folder)?;
+        let host: String = provenance::host().unwrap_or_default();
+        let host = host.replace(|c: char| !c.is_ascii_alphanumeric() && c != '-', "");
+        let process = std::process::id();
+        let mut count = 0;
+        loop {
+            // Systems number their processes from the beginning again and again.
+            let path = folder.join(format!("{host}-{process}-{count}.{ENDING}"));
+            match Self::create(&path) {
+                Ok(writer) => {
+                    sync_names(folder);
+                    return Ok(writer);
+                }
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => count += 1,
+                Err(source) => return Err(StoreError::Create { path, source }),
+            }
+        }
+    }
+
     /// Creates a file in a folder that is there.
     ///
     /// # Errors
@@ -76,23 +105,20 @@ impl LogWriter {
         &self.path
     }
 
-    /// Appends a record; where its content then begins. What cannot be written whole is taken back.
+    /// Appends a record that is [`framed`]. What cannot be written whole is taken back.
     ///
     /// # Errors
     /// Of the file system.
-    pub fn append(&mut self, content: &[u8]) -> io::Result<u64> {
-        let frame = framed(content)?;
+    pub fn append(&mut self, framed: &[u8]) -> io::Result<()> {
         let mut file = &self.disk.file;
-        if let Err(error) = file.write_all(&frame) {
+        if let Err(error) = file.write_all(framed) {
             // Should this fail too, the next reader finds a torn record.
             let _ = file.set_len(self.length);
             return Err(error);
         }
-        let content_at = self.length + HEAD_BYTES as u64;
-        self.length += frame.len() as u64;
+        self.length += framed.len() as u64;
         self.disk.written.store(self.length, Ordering::SeqCst);
-        self.sync_soon()?;
-        Ok(content_at)
+        self.sync_soon()
     }
 
     /// Brings what was appended to the disk within a second, be the next record hours away.
@@ -133,6 +159,13 @@ impl Drop for LogWriter {
     fn drop(&mut self) {
         // Whoever wants to know of an error calls `finish` before.
         let _ = self.finish();
+    }
+}
+
+/// Brings the names of new files to the disk: a file that is there without its name is lost. Not every system can do so.
+fn sync_names(folder: &Path) {
+    for folder in [Some(folder), folder.parent()].into_iter().flatten() {
+        let _ = File::open(folder).and_then(|folder| folder.sync_all());
     }
 }
 
@@ -215,7 +248,7 @@ pub(super) fn read_from(
     }
 }
 
-/// The content at a place that [`read`] or [`LogWriter::append`] has named, checked again.
+/// The content of a record of this length that begins here, checked again.
 ///
 /// # Errors
 /// Of the file system, and where the bytes there are no longer what they were.
@@ -282,7 +315,8 @@ mod tests {
     fn write(path: &Path) -> Vec<u8> {
         let mut writer = LogWriter::create(path).unwrap();
         for content in contents() {
-            let at = writer.append(&content).unwrap();
+            writer.append(&framed(&content).unwrap()).unwrap();
+            let at = writer.length() - content.len() as u64;
             assert_eq!(super::content(path, at, content.len()).unwrap(), content);
         }
         std::fs::read(path).unwrap()
@@ -343,8 +377,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let mut writer = LogWriter::create(&folder.path().join("a.segment")).unwrap();
         // The second of two that end together, too.
-        writer.append(b"first").unwrap();
-        writer.append(b"second").unwrap();
+        writer.append(&framed(b"first").unwrap()).unwrap();
+        writer.append(&framed(b"second").unwrap()).unwrap();
         let begun = std::time::Instant::now();
         let synced = || writer.disk.synced.load(Ordering::SeqCst);
         while synced() < writer.length() {
@@ -362,7 +396,7 @@ mod tests {
         let file = OpenOptions::new().write(true).open(path).unwrap();
         let mut writer = LogWriter::new(path, file);
         assert!(writer.finish().is_ok());
-        writer.append(b"first").unwrap();
+        writer.append(&framed(b"first").unwrap()).unwrap();
         assert!(writer.finish().is_err());
     }
 

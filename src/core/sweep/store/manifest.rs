@@ -13,7 +13,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use serde::Serialize;
 
-use super::folder_lock::{FolderLock, LOCK, LOCK_TO_COMPUTE, Others};
+use super::folder_lock::{FolderLock, LOCK, LOCKS, Others};
 use super::listing::{
     Found, KIND_MARK, Listed, PROGRAM, journal_of, look, named_like_results, names_in,
 };
@@ -332,9 +332,8 @@ impl Manifest {
     /// Removes these files, and the folders that are empty then.
     fn remove<'a>(&self, names: impl Iterator<Item = &'a String>) -> Result<(), StoreError> {
         let mut folders = BTreeSet::new();
-        for name in names.filter(|name| {
-            ![LOCK, LOCK_TO_COMPUTE].contains(&name.as_str()) && !self.reads.contains(*name)
-        }) {
+        let stays = |name: &str| LOCKS.contains(&name) || self.reads.contains(name);
+        for name in names.filter(|name| !stays(name)) {
             let path = self.folder.join(name);
             match fs::remove_file(&path) {
                 Err(source) if source.kind() != ErrorKind::NotFound => {
@@ -402,12 +401,9 @@ impl Manifest {
         }
         let mut state = self.state();
         self.look_again(&mut state)?;
-        let is_there = |file: &&String| *file == name || self.folder.join(file).exists();
-        let mut files: BTreeSet<String> = state.listed.iter().filter(is_there).cloned().collect();
-        files.insert(LOCK.to_owned());
-        if self.folder.join(LOCK_TO_COMPUTE).exists() {
-            files.insert(LOCK_TO_COMPUTE.to_owned());
-        }
+        let is_there = |file: &&str| *file == name || self.folder.join(file).exists();
+        let known = state.listed.iter().map(String::as_str).chain(LOCKS);
+        let files: BTreeSet<String> = known.filter(is_there).map(str::to_owned).collect();
         drop(state);
         let written = write(&files);
         if is_alone && written.is_ok() {

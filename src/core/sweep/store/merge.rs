@@ -1,7 +1,8 @@
 //! The records of several folders of one sweep, brought together in one.
 
 use crate::sweep::plan::Case;
-use crate::sweep::store::records::{Kept, Purpose};
+use crate::sweep::store::entry::Purpose;
+use crate::sweep::store::records::Kept;
 use crate::sweep::store::{Store, StoreError};
 
 /// Copies the records of all parts into `out` and returns the cases of the sweep that none of them has. `told` hears of

@@ -1,7 +1,7 @@
 //! The folder of a sweep: which sweep it belongs to, and every file written whole or not at all.
 //!
-//! A folder has one plan, its `resolved.toml`. Of several processes that begin at once one publishes it; those of the same
-//! sweep, its shards say, work beside it, and any other is refused. Whoever works in the folder shares its lock, and only the one that
+//! A folder has one plan, its `resolved.toml`. Of several processes that begin at once one publishes it; shards of the same
+//! sweep compute beside one another, and any other is refused. Whoever works in the folder shares its lock, and only the one that
 //! holds it alone replaces a plan (`--force`) or removes what killed processes have left. Machines that do not see
 //! one another's locks are safe all the same: a plan is compared before every file takes its name, so that a process whose folder
 //! was replaced stops, and a record names its plan and is never read under another.
@@ -10,6 +10,7 @@
 
 pub mod checkpoint_file;
 pub mod difference;
+pub mod entry;
 mod error;
 pub mod files;
 pub(in crate::sweep) mod folder_lock;

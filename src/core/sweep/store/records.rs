@@ -1,8 +1,7 @@
 //! The records of a sweep: which cases have one, and where it stands, in a log of this process or of another one, or in memory.
 //!
-//! A folder has one log per process that ever worked in it. Each record names the program, the build, the plan and the case that it
-//! belongs to, and holds the numbers and, behind them, the cycle, which is read only where it is asked for. Records in memory are
-//! a log that is no file: they can be handed to another process, and put into a folder.
+//! A folder has one log per process that ever worked in it; how a record stands in it, see [`super::entry`]. Records in memory are a log
+//! that is no file: they can be handed to another process, and put into a folder.
 
 use std::collections::HashMap;
 use std::fs;
@@ -10,92 +9,19 @@ use std::io::{self, Cursor};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use serde::{Deserialize, Serialize};
-
+use super::entry::{self, Heading, Key, Origin, Purpose};
 use super::log::{self, LogWriter, Met};
-use super::provenance::{self, BUILD};
-use super::{Store, StoreError, VERSION, create_folder};
-use crate::sweep::plan::{AxisValues, Case};
-use crate::sweep::record::{CaseRecord, RecordedCycle};
+use super::provenance::BUILD;
+use super::{Store, StoreError, VERSION};
+use crate::sweep::plan::Case;
+use crate::sweep::record::CaseRecord;
 
-/// The folder of the logs, and the ending of their names.
+/// The folder of the logs.
 pub const FOLDER: &str = "records";
-pub const ENDING: &str = "segment";
 
 /// What is said of bytes that are no record.
 const NOT_USED: &str = "(their checksum does not match): what stood there is not used";
 const NO_END: &str = "(a record without its end): they are not used";
-
-/// What a case was solved for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum Purpose {
-    /// A case of the sweep.
-    Sweep,
-    /// The loss at a frequency between those of the sweep, to locate a peak.
-    Peak,
-}
-
-/// Which case a record is of: what it was solved for, and its numbers bit for bit.
-#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-pub(in crate::sweep) struct Key {
-    purpose: Purpose,
-    /// Mean, amplitude, frequency, and what else varies.
-    bits: Vec<u64>,
-}
-
-impl Key {
-    pub(in crate::sweep) fn of(purpose: Purpose, case: &Case) -> Self {
-        let (drive, omega) = (&case.condition.drive, case.angular_frequency_rad_per_s);
-        let drive = [drive.mean(), drive.amplitude()];
-        Self::new(purpose, drive, omega, case.condition.values)
-    }
-
-    /// The case of the sweep whose record this is.
-    fn of_record(record: &CaseRecord) -> Self {
-        let drive = [record.drive_mean, record.drive_amplitude];
-        let omega = record.angular_frequency_rad_per_s;
-        Self::new(Purpose::Sweep, drive, omega, record.varied)
-    }
-
-    /// The name of a case in the folder: the same in every process that solves it.
-    pub(in crate::sweep) fn name(purpose: Purpose, case: &Case) -> String {
-        match purpose {
-            Purpose::Sweep => format!("{:04}", case.index),
-            Purpose::Peak => {
-                let bits = Self::of(purpose, case).bits.into_iter();
-                let names: Vec<String> = bits.map(|bits| format!("{bits:016x}")).collect();
-                names.join("-")
-            }
-        }
-    }
-
-    fn new(purpose: Purpose, drive: [f64; 2], omega: f64, varied: AxisValues) -> Self {
-        let numbers = drive.into_iter().chain([omega]);
-        let numbers = numbers.chain(varied.all().iter().copied());
-        Self {
-            purpose,
-            bits: numbers.map(f64::to_bits).collect(),
-        }
-    }
-}
-
-/// How the content of a record begins, in every version of the program.
-#[derive(Debug, Serialize, Deserialize)]
-struct Heading<'a> {
-    program_version: &'a str,
-    build: &'a str,
-    sweep_hash: &'a str,
-    key: Key,
-}
-
-/// Whose record it is.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-enum Origin {
-    ThisBuild,
-    AnotherBuild,
-    Older(String),
-    Newer(String),
-}
 
 /// Where a record stands.
 #[derive(Debug, Clone)]
@@ -152,37 +78,27 @@ const OF_ANOTHER_BUILD: &str = concat!(
     " of the program"
 );
 
-/// A record as it is stored behind its heading: its numbers, then its cycle, where it has one.
-///
-/// # Errors
-/// Why it cannot be encoded.
-pub fn encoded(record: &CaseRecord) -> Result<Vec<u8>, String> {
-    let cycle = record.result.as_ref().and_then(|result| result.cycle());
-    let encoded = postcard::to_stdvec(&(record.without_cycle(), cycle));
-    encoded.map_err(|error| error.to_string())
-}
-
-/// The numbers of an [`encoded`] record; `None` of anything else.
-pub fn numbers(encoded: &[u8]) -> Option<CaseRecord> {
-    postcard::take_from_bytes(encoded).ok().map(|(it, _)| it)
-}
-
-/// Gives the numbers of an [`encoded`] record their cycle, where there is one.
-fn add_cycle(record: &mut CaseRecord, encoded: &[u8]) {
-    let found = postcard::from_bytes::<(CaseRecord, Option<RecordedCycle>)>(encoded);
-    if let (Some(result), Ok((_, Some(cycle)))) = (&mut record.result, found) {
-        result.cycle = cycle;
-    }
-}
-
 /// The records of one sweep, in its folder or in memory alone.
 #[derive(Debug, Default)]
 pub struct Records(Mutex<State>);
 
+/// Where appended records go.
+#[derive(Debug)]
+enum Home {
+    Memory(Vec<u8>),
+    /// The folder of the logs.
+    Folder(PathBuf),
+}
+
+impl Default for Home {
+    fn default() -> Self {
+        Self::Memory(Vec::new())
+    }
+}
+
 #[derive(Debug, Default)]
 struct State {
-    /// `None` in memory.
-    folder: Option<PathBuf>,
+    home: Home,
     /// Of records in memory it is not asked: they never were another sweep's.
     sweep_hash: String,
     /// Whether records of a newer program may be replaced.
@@ -193,13 +109,12 @@ struct State {
     has_looked: bool,
     unread: Vec<Unread>,
     own: Option<LogWriter>,
-    memory: Vec<u8>,
 }
 
 impl Records {
     pub(super) fn in_folder(folder: &Path, sweep_hash: &str, force: bool) -> Self {
         Self(Mutex::new(State {
-            folder: Some(folder.join(FOLDER)),
+            home: Home::Folder(folder.join(FOLDER)),
             sweep_hash: sweep_hash.to_owned(),
             force,
             ..State::default()
@@ -245,11 +160,8 @@ impl Records {
         case: &Case,
         record: &CaseRecord,
     ) -> Result<(), StoreError> {
-        let encoded = match purpose {
-            Purpose::Sweep => encoded(record),
-            // Its cycle is drawn nowhere.
-            Purpose::Peak => encoded(&record.without_cycle()),
-        };
+        // The cycle at a peak is drawn nowhere.
+        let encoded = entry::encoded(record, purpose == Purpose::Sweep);
         let mut state = self.lock();
         let encoded = encoded.map_err(|reason| state.not_encoded(reason))?;
         state.append(Key::of(purpose, case), &encoded)
@@ -279,8 +191,7 @@ impl Records {
         let Some(path) = &place.log else {
             let from = place.at as usize;
             let range = from + place.heading..from + place.length;
-            let state = self.lock();
-            return Ok(state.memory.get(range).unwrap_or_default().to_vec());
+            return Ok(self.lock().memory().get(range).unwrap_or_default().to_vec());
         };
         let content = log::content(path, place.at, place.length);
         let mut content = content.map_err(|source| StoreError::Read {
@@ -315,7 +226,7 @@ impl Records {
             Origin::ThisBuild | Origin::AnotherBuild => {}
         }
         let content = self.content(&place)?;
-        let Some(mut record) = numbers(&content) else {
+        let Some((mut record, cycle)) = entry::numbers(&content) else {
             let case = case.index;
             return unusable(path, format!("the record of case {case} is damaged"));
         };
@@ -326,7 +237,7 @@ impl Records {
         }
         record.index = case.index;
         if with_cycle {
-            add_cycle(&mut record, &content);
+            entry::add_cycle(&mut record, cycle);
         }
         let record = Box::new(record);
         Ok(match place.origin {
@@ -341,7 +252,10 @@ impl Records {
     /// [`StoreError::Read`] with the path.
     pub fn load_cycle(&self, record: &mut CaseRecord) -> Result<(), StoreError> {
         if let Some(place) = self.place(&Key::of_record(record))? {
-            add_cycle(record, &self.content(&place)?);
+            let content = self.content(&place)?;
+            if let Some((_, cycle)) = entry::numbers(&content) {
+                entry::add_cycle(record, cycle);
+            }
         }
         Ok(())
     }
@@ -365,7 +279,7 @@ impl Records {
                 None => self.lock().append(key, &record)?,
                 Some(known) if self.content(&known)? == record => {}
                 Some(_) => {
-                    if let Some(record) = numbers(&record) {
+                    if let Some((record, _)) = entry::numbers(&record) {
                         differs(&record);
                     }
                 }
@@ -385,13 +299,13 @@ impl Records {
 
     /// Records in memory, for another process of the same build.
     pub fn to_bytes(&self) -> Vec<u8> {
-        self.lock().memory.clone()
+        self.lock().memory().to_vec()
     }
 
     /// The records of [`Self::to_bytes`]; `None` of anything else.
     pub fn from_bytes(bytes: &[u8]) -> Option<Self> {
         let mut state = State {
-            memory: bytes.to_vec(),
+            home: Home::Memory(bytes.to_vec()),
             ..State::default()
         };
         let mut are_own = true;
@@ -405,8 +319,19 @@ impl Records {
 }
 
 impl State {
+    /// The log in memory; empty where the records are in a folder.
+    fn memory(&self) -> &[u8] {
+        match &self.home {
+            Home::Memory(bytes) => bytes,
+            Home::Folder(_) => &[],
+        }
+    }
+
     fn not_encoded(&self, reason: String) -> StoreError {
-        let path = self.folder.clone().unwrap_or_default();
+        let path = match &self.home {
+            Home::Folder(folder) => folder.clone(),
+            Home::Memory(_) => PathBuf::new(),
+        };
         StoreError::Encode { path, reason }
     }
 
@@ -422,19 +347,33 @@ impl State {
         let mut content = encoded.map_err(|error| self.not_encoded(error.to_string()))?;
         let (key, heading) = (heading.key, content.len());
         content.extend_from_slice(record);
-        let (log, at) = match self.folder.clone() {
-            Some(folder) => self.append_to_log(&folder, &content)?,
-            None => {
-                let framed = log::framed(&content);
-                let framed = framed.map_err(|error| self.not_encoded(error.to_string()))?;
-                self.memory.extend(framed);
-                (None, (self.memory.len() - content.len()) as u64)
+        let framed = log::framed(&content);
+        let framed = framed.map_err(|error| self.not_encoded(error.to_string()))?;
+        let (log, end) = match &mut self.home {
+            Home::Folder(folder) => {
+                let writer = match self.own.take() {
+                    Some(writer) => writer,
+                    None => LogWriter::in_folder(folder)?,
+                };
+                let writer = self.own.insert(writer);
+                let path = writer.path().to_path_buf();
+                if let Err(source) = writer.append(&framed) {
+                    return Err(StoreError::Write { path, source });
+                }
+                let read = self.read.entry(path);
+                let (log, read_to) = read.or_insert_with_key(|path| (path.as_path().into(), 0));
+                *read_to = writer.length();
+                (Some(Arc::clone(log)), writer.length())
+            }
+            Home::Memory(bytes) => {
+                bytes.extend(framed);
+                (None, bytes.len() as u64)
             }
         };
         let place = Place {
             log,
             origin: Origin::ThisBuild,
-            at,
+            at: end - content.len() as u64,
             length: content.len(),
             heading,
         };
@@ -442,34 +381,13 @@ impl State {
         Ok(())
     }
 
-    /// Appends to the log of this process; the log, and where in it the content stands.
-    fn append_to_log(
-        &mut self,
-        folder: &Path,
-        content: &[u8],
-    ) -> Result<(Option<Arc<Path>>, u64), StoreError> {
-        let writer = match self.own.take() {
-            Some(writer) => writer,
-            None => new_log(folder)?,
-        };
-        let writer = self.own.insert(writer);
-        let path = writer.path().to_path_buf();
-        let at = match writer.append(content) {
-            Ok(at) => at,
-            Err(source) => return Err(StoreError::Write { path, source }),
-        };
-        let read = self.read.entry(path);
-        let (log, read_to) = read.or_insert_with_key(|path| (path.as_path().into(), 0));
-        *read_to = writer.length();
-        Ok((Some(Arc::clone(log)), at))
-    }
-
     /// Reads what is new in the folder; nothing in memory.
     fn look(&mut self) -> Result<(), StoreError> {
         let first = !std::mem::replace(&mut self.has_looked, true);
-        let Some(folder) = self.folder.clone() else {
+        let Home::Folder(folder) = &self.home else {
             return Ok(());
         };
+        let folder = folder.clone();
         let failed = |path: &Path| {
             let path = path.to_path_buf();
             move |source| StoreError::Read { path, source }
@@ -482,7 +400,7 @@ impl State {
         for entry in entries {
             let path = entry.map_err(failed(&folder))?.path();
             match path.extension().and_then(|ending| ending.to_str()) {
-                Some(ENDING) => paths.push(path),
+                Some(log::ENDING) => paths.push(path),
                 Some("json") if first => self.unread.push(Unread {
                     path,
                     reason: "a record of an earlier version of the program, which kept one file per case: it is not used".to_owned(),
@@ -555,54 +473,8 @@ impl State {
     }
 }
 
-impl Origin {
-    fn of(version: &str, build: &str) -> Self {
-        match numbers_of(version).cmp(&numbers_of(VERSION)) {
-            std::cmp::Ordering::Less => Self::Older(version.to_owned()),
-            std::cmp::Ordering::Greater => Self::Newer(version.to_owned()),
-            std::cmp::Ordering::Equal if build == BUILD => Self::ThisBuild,
-            std::cmp::Ordering::Equal => Self::AnotherBuild,
-        }
-    }
-}
-
 fn written_by(version: &str, age: &str) -> String {
     format!("it was written by version {version} of the program, {age} than this one")
-}
-
-/// A log that no other process has.
-fn new_log(folder: &Path) -> Result<LogWriter, StoreError> {
-    create_folder(folder)?;
-    let host: String = provenance::host().unwrap_or_default();
-    let host = host.replace(|c: char| !c.is_ascii_alphanumeric() && c != '-', "");
-    let process = std::process::id();
-    let mut count = 0;
-    loop {
-        // Systems number their processes from the beginning again and again.
-        let path = folder.join(format!("{host}-{process}-{count}.{ENDING}"));
-        match LogWriter::create(&path) {
-            Ok(writer) => {
-                sync_names(folder);
-                return Ok(writer);
-            }
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => count += 1,
-            Err(source) => return Err(StoreError::Create { path, source }),
-        }
-    }
-}
-
-/// Brings the names of new files to the disk: a file that is there without its name is lost. Not every system can do so.
-fn sync_names(folder: &Path) {
-    for folder in [Some(folder), folder.parent()].into_iter().flatten() {
-        let _ = fs::File::open(folder).and_then(|folder| folder.sync_all());
-    }
-}
-
-/// The numbers of a version; what is no number counts as 0.
-fn numbers_of(version: &str) -> Vec<u64> {
-    let release = version.split(['-', '+']).next().unwrap_or_default();
-    let parts = release.split('.');
-    parts.map(|part| part.parse().unwrap_or(0)).collect()
 }
 
 #[cfg(test)]
@@ -768,7 +640,7 @@ mod tests {
             }
         });
         record.result = Some(serde_json::from_value(result).unwrap());
-        let sum = crc32fast::hash(&encoded(&record).unwrap());
+        let sum = crc32fast::hash(&entry::encoded(&record, true).unwrap());
         // Where this fails, records have another form: write its sum here, and count the last byte of `log::MARK` up.
         assert_eq!(sum, 0xa2ed_b841, "{sum:#x}");
     }
