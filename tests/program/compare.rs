@@ -9,6 +9,10 @@ use super::program::program;
 
 /// Sweeps PMMA, with its slower relaxation time as given (s), around its largest peak.
 fn swept(folder: &Path, name: &str, time_s: f64) {
+    swept_with(folder, name, time_s, &[]);
+}
+
+fn swept_with(folder: &Path, name: &str, time_s: f64, more: &[&str]) {
     let text = format!(
         r#"title = "peak"
 indenter = {{ shape = "sphere", radius = "10 mm" }}
@@ -27,7 +31,8 @@ branches = [{{ modulus = "254.776 MPa", time = "8.93 s" }}, {{ modulus = "263.66
     let file = folder.join(format!("{name}.toml"));
     std::fs::write(&file, text).unwrap();
     let mut command = program();
-    command.args(["sweep", "--quiet", "--no-figures", "--out"]);
+    command.args(["sweep", "--quiet", "--no-figures"]);
+    command.args(more).arg("--out");
     command.arg(folder.join(name)).arg(file).assert().success();
 }
 
@@ -82,6 +87,31 @@ fn a_peak_that_moved_is_found_whatever_is_allowed_of_the_columns() {
     // A column with a tolerance of its own is judged too.
     let column = ["--peaks", "1e-3", "--tolerance", "energy_loss_j=1e-9"];
     assert_eq!(peaks("hardly", &column).0, 4);
+}
+
+/// Over one axis the summary has the number itself, where over several it has a list.
+#[test]
+fn a_peak_that_moved_is_found_over_one_further_axis_and_over_two() {
+    let folder = TempDir::new().unwrap();
+    for axes in [
+        &["sweep.drive.amplitude=[2, 5]"][..],
+        &["sweep.drive.amplitude=[2, 5]", "sweep.drive.mean=[10, 11]"],
+    ] {
+        let set: Vec<&str> = axes.iter().flat_map(|axis| ["--set", axis]).collect();
+        for (name, time_s) in [("one", 117.96), ("other", 110.0)] {
+            let name = format!("{name}-{}", axes.len());
+            swept_with(folder.path(), &name, time_s, &set);
+        }
+        let names = ["one", "other"].map(|name| format!("{name}-{}", axes.len()));
+        let [one, other] = names.each_ref().map(String::as_str);
+        let (code, text) = compared(folder.path(), &[one, one]);
+        assert_eq!(code, 0, "{text}");
+        let (code, text) = compared(folder.path(), &[one, other, "--peaks"]);
+        assert_eq!(code, 4, "{text}");
+        // One peak for each combination, every one of which moved.
+        let moved = text.lines().filter(|line| line.contains("moved by +8."));
+        assert_eq!(moved.count(), 1 << axes.len(), "{text}");
+    }
 }
 
 #[test]

@@ -121,6 +121,7 @@ impl AxisValues {
     }
 }
 
+/// In text as the numbers that a reader expects; records have a form that says less of itself, and there it is always a list.
 impl Serialize for AxisValues {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self.all() {
@@ -131,11 +132,25 @@ impl Serialize for AxisValues {
     }
 }
 
-/// Of records alone.
 impl<'de> Deserialize<'de> for AxisValues {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Text {
+            None,
+            One(f64),
+            Several(Vec<f64>),
+        }
+        let values = match deserializer.is_human_readable() {
+            false => Vec::deserialize(deserializer)?,
+            true => match Text::deserialize(deserializer)? {
+                Text::None => Vec::new(),
+                Text::One(value) => vec![value],
+                Text::Several(values) => values,
+            },
+        };
         let too_many = || serde::de::Error::custom("more values than axes");
-        Self::new(&Vec::deserialize(deserializer)?).ok_or_else(too_many)
+        Self::new(&values).ok_or_else(too_many)
     }
 }
 
@@ -374,5 +389,27 @@ impl Condition {
     /// The number that the first axis varies (SI units); `None` in a sweep over frequency alone.
     pub fn value(&self) -> Option<f64> {
         self.values.first()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_number_of_values_comes_back_from_text_and_from_records() {
+        for (values, text) in [
+            (&[][..], "null"),
+            (&[0.1], "0.1"),
+            (&[0.1, 3.0, -1e-300, 4.0], "[0.1,3.0,-1e-300,4.0]"),
+        ] {
+            let values = AxisValues::new(values).unwrap();
+            assert_eq!(serde_json::to_string(&values).unwrap(), text);
+            assert_eq!(serde_json::from_str::<AxisValues>(text).unwrap(), values);
+            let bytes = postcard::to_stdvec(&values).unwrap();
+            assert_eq!(postcard::from_bytes::<AxisValues>(&bytes).unwrap(), values);
+        }
+        assert!(serde_json::from_str::<AxisValues>("[1,2,3,4,5]").is_err());
+        assert!(serde_json::from_str::<AxisValues>("\"one\"").is_err());
     }
 }
