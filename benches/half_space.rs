@@ -90,8 +90,8 @@ fn case_s(cells: usize) -> f64 {
     let mut plan = SweepPlan::new(pmma, Arc::new(sphere), drive);
     plan.angular_frequencies_rad_per_s = vec![0.01];
     plan.cycle.error_bars = false;
-    plan.contact.solver.engine = EngineKind::HalfSpace;
-    plan.contact.solver.cells = cells;
+    plan.solver.engine = EngineKind::HalfSpace;
+    plan.solver.cells = cells;
     let setup = Setup::new(plan).expect("a valid plan");
     let [case] = &setup.plan().cases()[..] else {
         panic!("one frequency")

@@ -33,10 +33,10 @@ fn plan(cells: usize, steps: usize, constant: bool) -> SweepPlan {
     plan.cycle.error_bars = false;
     if constant {
         plan.cycle.method = Method::March;
-        plan.contact.solver.time_rule = TimeRule::Constant;
+        plan.solver.time_rule = TimeRule::Constant;
     }
-    plan.contact.solver.engine = EngineKind::HalfSpace;
-    plan.contact.solver.cells = cells;
+    plan.solver.engine = EngineKind::HalfSpace;
+    plan.solver.cells = cells;
     plan
 }
 
@@ -55,7 +55,7 @@ fn main() {
     let (cpu_s, record) = timed(|| solved(plan(cells, steps, constant)));
     let peak_mib = peak_mib();
     let mut exact = plan(0, 2000, false);
-    (exact.contact.solver.engine, exact.contact.solver.springs) = (EngineKind::Axisymmetric, 4000);
+    (exact.solver.engine, exact.solver.springs) = (EngineKind::Axisymmetric, 4000);
     let exact_j = solved(exact).energy_loss_j().expect("converged");
     let loss_j = record.energy_loss_j().expect("converged");
     println!(

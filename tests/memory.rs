@@ -100,8 +100,8 @@ fn a_case_holds_the_memory_predicted_whatever_material_and_engine() {
     // Off the origin there is no quarter to take.
     let offset = || Arc::new(Shifted::new(sphere(), 1.37e-5, 7.1e-6).unwrap()) as Arc<dyn Indenter>;
     let cells = |mut plan: SweepPlan, cells| {
-        plan.contact.solver.engine = EngineKind::HalfSpace;
-        plan.contact.solver.cells = cells;
+        plan.solver.engine = EngineKind::HalfSpace;
+        plan.solver.cells = cells;
         plan
     };
     let mut plans = vec![
@@ -117,7 +117,7 @@ fn a_case_holds_the_memory_predicted_whatever_material_and_engine() {
     with_bars.cycle.error_bars = true;
     plans.push(with_bars);
     let mut springs = sweep(pmma(), sphere(), 10.0);
-    springs.contact.solver.springs = 2000;
+    springs.solver.springs = 2000;
     plans.push(springs);
     let mut failed = Vec::new();
     for (k, plan) in plans.into_iter().enumerate() {
@@ -138,7 +138,7 @@ fn a_case_holds_the_memory_predicted_whatever_material_and_engine() {
         let ratio = predicted as f64 / counted as f64;
         println!("{k}: {counted} bytes, {cycles} cycles, predicted {ratio:.3} times that");
         // Of springs it is a guess on the safe side: how many rows of their table are asked for depends on the cycle.
-        let highest = match setup.plan().contact.solver.engine {
+        let highest = match setup.plan().solver.engine {
             EngineKind::Axisymmetric => f64::INFINITY,
             EngineKind::HalfSpace => 1.2,
         };

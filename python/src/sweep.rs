@@ -143,7 +143,7 @@ impl Sweep {
 
     #[getter]
     fn control(&self) -> &'static str {
-        self.plan.drive.control().name()
+        self.plan.base.drive.control().name()
     }
 
     /// The sweep as the text of a sweep file, every default filled in.
@@ -200,7 +200,7 @@ impl Sweep {
                 read.as_ref()
             }
         };
-        let control = self.plan.drive.control();
+        let control = self.plan.base.drive.control();
         let profiles = cycle.into_iter().flat_map(|cycle| &cycle.pressures);
         let profile = |profile: &contact_dma::sweep::record::PressureProfile| {
             let lines = profile.lines.iter().map(|line| {
@@ -279,7 +279,7 @@ impl Sweep {
         let map = self.shape.as_ref().and_then(|shape| shape.get().map());
         let map = map.map(|map| MapFile::of(map, folder)).transpose()?;
         if let Some(map) = &map {
-            plan.contact.indenter = Arc::clone(&map.indenter);
+            plan.base.contact.indenter = Arc::clone(&map.indenter);
         }
         let stored = |error| failure::of_store(&error);
         let store = Store::open(folder, &resolved_text(&plan), force).map_err(stored)?;

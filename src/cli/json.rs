@@ -45,11 +45,11 @@ fn varied(plan: &SweepPlan, values: &AxisValues) -> Value {
 /// What a sweep would compute, and what that costs.
 pub(super) fn plan(setup: &Setup, cost: &Cost) -> Value {
     let plan = setup.plan();
-    let own = plan.contact.indenter.own_cells();
-    let (springs, cells) = match (plan.contact.solver.engine, own) {
-        (EngineKind::Axisymmetric, _) => (Some(plan.contact.solver.springs), None),
+    let own = plan.base.contact.indenter.own_cells();
+    let (springs, cells) = match (plan.solver.engine, own) {
+        (EngineKind::Axisymmetric, _) => (Some(plan.solver.springs), None),
         (EngineKind::HalfSpace, Some((x, y))) => (None, Some([x, y])),
-        (EngineKind::HalfSpace, None) => (None, Some([plan.contact.solver.cells; 2])),
+        (EngineKind::HalfSpace, None) => (None, Some([plan.solver.cells; 2])),
     };
     let cases = cost.cases.iter().map(|case| {
         json!({
@@ -64,7 +64,7 @@ pub(super) fn plan(setup: &Setup, cost: &Cost) -> Value {
     });
     json!({
         "title": plan.title,
-        "engine": plan.contact.solver.engine.name(),
+        "engine": plan.solver.engine.name(),
         "springs": springs,
         "cells": cells,
         "steps_per_cycle": plan.cycle.steps,

@@ -86,7 +86,7 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
             let steps = simulation.schedule().moments.len();
             Ok(serde_json::json!({
                 "title": simulation.plan().title,
-                "engine": simulation.plan().contact.solver.engine.name(),
+                "engine": simulation.plan().solver.engine.name(),
                 "time_steps": steps,
                 "time_steps_for_errors": simulation.moments() - steps,
                 "memory_bytes": simulation.predicted_memory_bytes(),
@@ -170,8 +170,8 @@ fn foretold(simulation: &Simulation) -> String {
         "{}\n\n{} time steps on {} ({} engine){}.\nMemory: about {}{free}.\n",
         plan.title,
         simulation.schedule().moments.len(),
-        nodes(&plan.contact.solver, plan.contact.indenter.as_ref()),
-        plan.contact.solver.engine.name(),
+        nodes(&plan.solver, plan.contact.indenter.as_ref()),
+        plan.solver.engine.name(),
         match simulation.moments() - simulation.schedule().moments.len() {
             0 => String::new(),
             more => format!(";\n{more} more, most on fewer nodes, for the errors"),

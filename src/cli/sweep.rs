@@ -18,8 +18,8 @@ use super::{
 use crate::input::sweep_file;
 use crate::report::{self, terminal};
 use crate::sweep::case::Setup;
+use crate::sweep::plan::Block;
 use crate::sweep::plan::resolved;
-use crate::sweep::plan::{Block, Condition};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::{self, Options, Outcome};
 use crate::sweep::share::shard::{self, Shard};
@@ -214,10 +214,11 @@ impl<'a> Job<'a> {
     fn text(&self, outcome: &Outcome, left_out: &[String]) -> String {
         let plan = self.setup.plan();
         let mut text = format!("{}\n\n", plan.title);
-        for (_, Condition { material, .. }) in plan.each_of(Block::Material) {
+        for (_, condition) in plan.each_of(Block::Material) {
+            let material = &condition.contact.material;
             let fit = material.fit().map(report::fit::text);
             let known = material.approximation();
-            let approximation = known.map(|_| report::fit::approximation(&material));
+            let approximation = known.map(|_| report::fit::approximation(material));
             for part in fit.into_iter().chain(approximation) {
                 text.push_str(&format!("{part}\n"));
             }

@@ -64,12 +64,12 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<IdentifyPlan, Dia
                 layer,
                 indenter: indenter?,
                 adhesion: bodies.adhesion(),
-                solver: solver?,
                 material: Sought {
                     compressibility: compressibility?,
                     counterbody: bodies.counterbody,
                 },
             },
+            solver: solver?,
             drive: drive?,
             branches: measured.branches,
             measurements: measured.measurements,

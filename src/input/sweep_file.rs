@@ -63,14 +63,14 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
             figures_block::of_sweep(t, (frequencies, given_in))
         });
         let (figures, cycle) = (figures?, cycle?);
-        let (contact, drive, axes) = blocks.into_plan(solver?, sweep)?;
+        let (base, axes) = blocks.into_plan(sweep)?;
         let sweep = sweep?;
         let mut plan = SweepPlan {
             title: title?,
-            contact,
-            drive,
-            angular_frequencies_rad_per_s: sweep.angular_frequencies_rad_per_s.clone(),
+            base,
             axes,
+            solver: solver?,
+            angular_frequencies_rad_per_s: sweep.angular_frequencies_rad_per_s.clone(),
             refine: sweep.refine,
             cycle,
             figures: FigurePlan::default(),

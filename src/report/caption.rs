@@ -10,7 +10,7 @@ use crate::sweep::history::SimulationOutcome;
 use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::scenario::ScenarioPlan;
-use crate::sweep::plan::{Block, EngineKind, Method, SweepPlan, Varied};
+use crate::sweep::plan::{Block, EngineKind, Method, SolverPlan, SweepPlan, Varied};
 use crate::sweep::search::run::Outcome;
 
 /// What a figure itself has to say.
@@ -74,22 +74,26 @@ impl Setting {
     pub fn of_sweep(plan: &SweepPlan, outcome: &Outcome, units: Option<String>) -> Self {
         // A cycle that is found directly has no beginning.
         let is_marched = plan.cycle.method == Method::March;
-        let hold_s = Some(plan.drive.hold_s()).filter(|hold_s| *hold_s > 0.0 && is_marched);
+        let hold_s = Some(plan.base.drive.hold_s()).filter(|hold_s| *hold_s > 0.0 && is_marched);
         let rest = after_comma(hold_s.map(|hold_s| {
             let hold = plain(hold_s, Dimension::Time, 4);
             format!("after {hold} of rest under the mean")
         }));
-        let attraction = after_comma(adhesion_line(plan.contact.adhesion));
+        let attraction = after_comma(adhesion_line(plan.base.contact.adhesion));
         let swept = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
         let varied = after_comma(varied_line(plan));
         let of = format!(
             "{} on {}{}, {} (mean ± amplitude){rest}{attraction}{varied}",
             words::each_of(plan, Block::Indenter, |name, c| {
-                indenter((name, c.indenter.as_ref()), swept, c.material.counterbody())
+                indenter(
+                    (name, c.contact.indenter.as_ref()),
+                    swept,
+                    c.contact.material.counterbody(),
+                )
             }),
-            words::each_of(plan, Block::Material, |_, c| material(&c.material)),
-            layer(plan.contact.layer, swept),
-            drive_line(&plan.drive, plan)
+            words::each_of(plan, Block::Material, |_, c| material(&c.contact.material)),
+            layer(plan.base.contact.layer, swept),
+            drive_line(&plan.base.drive, plan)
         );
         let records = &outcome.records;
         let steps = range(records.iter().map(|record| record.steps as f64), 0);
@@ -105,7 +109,7 @@ impl Setting {
         };
         let computed = format!(
             "{cycles}, {steps} time steps per cycle, computed by {}.",
-            engine(&plan.contact, &nodes)
+            engine(&plan.solver, &plan.base.contact, &nodes)
         );
         Self {
             of,
@@ -138,7 +142,7 @@ impl Setting {
         let computed = format!(
             "{} time steps, computed by {}.",
             outcome.rows.len(),
-            engine(contact, &contact.solver.nodes().to_string())
+            engine(&plan.solver, contact, &plan.solver.nodes().to_string())
         );
         Self {
             of,
@@ -210,8 +214,8 @@ fn indenter(
     }
 }
 
-fn engine<M>(contact: &ContactPlan<M>, nodes: &str) -> String {
-    match (contact.solver.engine, contact.indenter.own_cells()) {
+fn engine<M>(solver: &SolverPlan, contact: &ContactPlan<M>, nodes: &str) -> String {
+    match (solver.engine, contact.indenter.own_cells()) {
         (EngineKind::Axisymmetric, _) => {
             format!("the axisymmetric engine of contact-dma on {nodes} springs")
         }
@@ -226,7 +230,7 @@ fn engine<M>(contact: &ContactPlan<M>, nodes: &str) -> String {
 
 /// What error bars mean; nothing where there are none.
 pub fn error_bars(plan: &SweepPlan, outcome: &Outcome) -> Option<String> {
-    let nodes = match plan.contact.solver.engine {
+    let nodes = match plan.solver.engine {
         EngineKind::Axisymmetric => "springs",
         EngineKind::HalfSpace => "cells",
     };
@@ -238,7 +242,7 @@ pub fn error_bars(plan: &SweepPlan, outcome: &Outcome) -> Option<String> {
             None => " and from the distance to the stabilised cycle",
         };
         let mut materials = plan.each_of(Block::Material).into_iter();
-        let is_open = materials.any(|(_, condition)| !condition.material.alternatives().is_empty());
+        let is_open = materials.any(|(_, condition)| !condition.contact.material.alternatives().is_empty());
         let open = match is_open {
             true => ", plus the largest difference that other materials make which this one may be as well",
             false => "",

@@ -15,12 +15,17 @@ pub fn note(plan: &SweepPlan, outcome: &Outcome) -> Option<String> {
         while let Some(record) = rest.next_if(|record| record.is_of(condition)) {
             let bar = record.energy_loss_j().zip(record.energy_loss_error_j());
             let Some((loss_j, error_j)) =
-                bar.filter(|_| condition.material.counterbody().is_none())
+                bar.filter(|_| condition.contact.material.counterbody().is_none())
             else {
                 continue;
             };
             let omega = record.angular_frequency_rad_per_s;
-            let part = steel_per_pa * condition.material.contact_complex_modulus(omega).norm();
+            let part = steel_per_pa
+                * condition
+                    .contact
+                    .material
+                    .contact_complex_modulus(omega)
+                    .norm();
             if part > (error_j / loss_j).abs() {
                 (count, largest) = (count + 1, largest.max(part));
             }

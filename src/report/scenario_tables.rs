@@ -186,7 +186,7 @@ fn summary(
         largest_contact_radius_m: radii.fold(0.0, f64::max),
         largest_peak_pressure_pa: peaks
             .try_fold(0.0, |largest: f64, peak| Some(largest.max(peak?))),
-        engine: plan.contact.solver.engine.name(),
+        engine: plan.solver.engine.name(),
         hereditary_integral: match &plan.contact.material {
             BodyMaterial::Series(material) if material.fit().is_some() => "fitted series",
             BodyMaterial::Series(_) => "series",

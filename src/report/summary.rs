@@ -75,7 +75,7 @@ pub(super) fn of<'a>(
             .collect(),
         warnings: warning::over_cases(&outcome.records, plan.figures.frequency_unit),
         interrupted: outcome.interrupted,
-        engine: plan.contact.solver.engine.name(),
+        engine: plan.solver.engine.name(),
         program: env!("CARGO_PKG_NAME"),
         program_version: env!("CARGO_PKG_VERSION"),
         sweep_hash,

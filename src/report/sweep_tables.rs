@@ -36,7 +36,7 @@ pub fn write(
         };
         let name = |folder: &str| format!("{folder}/{}.csv", record.index);
         store.write(name("loops"), &table::samples(&cycle.samples))?;
-        let pressures = table::pressures(&cycle.pressures, plan.drive.control());
+        let pressures = table::pressures(&cycle.pressures, plan.base.drive.control());
         store.write(name("pressures"), &pressures)?;
         let work = WorkLine::of(&cycle.surface_loss, plan.indenter_under(&record.varied));
         store.write(name("work"), &table::work(&work))?;

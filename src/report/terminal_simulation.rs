@@ -57,7 +57,7 @@ pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
         text,
         "\n{} time steps, {} engine{}",
         outcome.rows.len(),
-        plan.contact.solver.engine.name(),
+        plan.solver.engine.name(),
         match outcome.domain_enlarged {
             0 => String::new(),
             n => format!(", domain enlarged {n} times"),

@@ -45,7 +45,7 @@ pub fn drive_line(drive: &HarmonicDrive, plan: &SweepPlan) -> String {
         true => ", held at zero where that is a pull",
         false => "",
     };
-    let period_m2 = plan.contact.indenter.period_area_m2();
+    let period_m2 = plan.base.contact.indenter.period_area_m2();
     let pressure = period_m2.filter(|_| plan.axes.is_none()).map(|area_m2| {
         let [mean, amplitude] = [drive.mean(), drive.amplitude()]
             .map(|load_n| plain(load_n / area_m2, Dimension::Stress, 4));
@@ -98,7 +98,7 @@ pub fn varied_line(plan: &SweepPlan) -> Option<String> {
 /// The number of replicas that the material has, of several materials the most.
 pub fn replicas(plan: &SweepPlan) -> usize {
     let materials = plan.each_of(Block::Material).into_iter();
-    let counts = materials.map(|(_, condition)| condition.material.replicas().len());
+    let counts = materials.map(|(_, condition)| condition.contact.material.replicas().len());
     counts.max().unwrap_or(0)
 }
 

@@ -79,8 +79,8 @@ pub(super) fn simulate(
         By::RefinedSprings => (EngineKind::Axisymmetric, 2, 20.0),
         By::Cells => (EngineKind::HalfSpace, 1, 1.0),
     };
-    plan.contact.solver.engine = engine;
-    plan.contact.solver.springs *= springs;
+    plan.solver.engine = engine;
+    plan.solver.springs *= springs;
     plan.step_s = plan.step_s.map(|step_s| step_s / steps);
     run(plan, interrupt)
 }

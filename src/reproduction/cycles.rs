@@ -81,9 +81,9 @@ pub(super) fn figures(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figur
 fn compute<'a>(plans: &'a Plans, interrupt: &AtomicBool) -> Result<Cycles<'a>> {
     let plan = plans.sweep("figure-12")?;
     let scale = Scale::new(
-        &plan.contact.material,
-        plan.contact.indenter.as_ref(),
-        plan.drive.maximum(),
+        &plan.base.contact.material,
+        plan.base.contact.indenter.as_ref(),
+        plan.base.drive.maximum(),
     )?;
     let branch = scale.contact_compliance.branches().first();
     let unfit = || ReproductionError::Unfit("a Zener body has a retardation time".to_owned());
@@ -103,9 +103,9 @@ fn compute<'a>(plans: &'a Plans, interrupt: &AtomicBool) -> Result<Cycles<'a>> {
     let over = in_order([frequencies("figure-12-peak")?, shown[0].clone()].concat());
     let mut cycles = Cycles {
         plan,
-        cells: plan.contact.solver.cells,
+        cells: plan.solver.cells,
         // Coarse: how fast the start is forgotten hardly depends on the grid.
-        cells_from_rest: plan.contact.solver.cells / 4,
+        cells_from_rest: plan.solver.cells / 4,
         scale,
         tau_s,
         cases: Vec::new(),
@@ -172,8 +172,8 @@ impl Cycles<'_> {
     pub(super) fn closed_forms(&self, f: f64) -> ClosedForms {
         let (scale, omega) = (&self.scale, self.omega(f));
         let contact = HarmonicContact {
-            mean_n: self.plan.drive.mean(),
-            amplitude_n: self.plan.drive.amplitude(),
+            mean_n: self.plan.base.drive.mean(),
+            amplitude_n: self.plan.base.drive.amplitude(),
             angular_frequency_rad_per_s: omega,
             contact_compliance: &scale.contact_compliance,
         };
@@ -227,8 +227,8 @@ impl Cycles<'_> {
         let distances = |engine, nodes: usize, steps: usize| {
             let mut plan = at_frequency(scenario, omega, Some(cycles))?;
             plan.step_s = Some(TAU / omega / steps as f64);
-            plan.contact.solver.engine = engine;
-            plan.contact.solver = plan.contact.solver.with_nodes(nodes);
+            plan.solver.engine = engine;
+            plan.solver = plan.solver.with_nodes(nodes);
             let rows = run(plan, interrupt)?.rows;
             let approaches_m: Vec<f64> = rows.iter().filter_map(|row| row.approach_m).collect();
             let largest_m = approaches_m.iter().copied().fold(0.0, f64::max);
@@ -239,7 +239,7 @@ impl Cycles<'_> {
             };
             Ok::<_, ReproductionError>((0..cycles).map(distance).collect::<Vec<_>>())
         };
-        let (springs, steps) = (self.plan.contact.solver.springs, self.plan.cycle.steps);
+        let (springs, steps) = (self.plan.solver.springs, self.plan.cycle.steps);
         Ok(ByEngine {
             exact: distances(EngineKind::Axisymmetric, 2 * springs, FINER * steps)?,
             axisymmetric: distances(EngineKind::Axisymmetric, springs, steps)?,

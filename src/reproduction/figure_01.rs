@@ -45,7 +45,7 @@ pub(super) fn figures(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figur
     )
     .series(member.line(line).label("Prony series, equation (8)"))
     .series(seen.springs(spread(&springs, 60)))
-    .series(seen.cells(spread(&cells, 34), plan.contact.solver.cells))
+    .series(seen.cells(spread(&cells, 34), plan.solver.cells))
     .legend(LegendPlace::TopRight);
     let caption = "Relaxation modulus of PMMA. Line: the Prony series. Symbols: read from the load under a flat punch that is \
                    pressed in at once and held still.";

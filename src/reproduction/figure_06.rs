@@ -159,7 +159,7 @@ fn compute(case: &Case, plans: &Plans, interrupt: &AtomicBool) -> Result<Compute
         Exact::ClosedForm(radius) => springs.iter().map(|(t, _)| (*t, radius(*t))).collect(),
         Exact::Refined => signal(By::RefinedSprings)?.0,
     };
-    let cells = plan.contact.solver.cells;
+    let cells = plan.solver.cells;
     Ok(Computed {
         signals: ByEngine::of(exact, [springs, on_cells]),
         cells,

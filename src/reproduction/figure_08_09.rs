@@ -22,7 +22,7 @@ struct History {
 fn history(plan: &ScenarioPlan, interrupt: &AtomicBool) -> Result<History> {
     Ok(History {
         computed: both(plan, interrupt)?,
-        side: plan.contact.solver.cells,
+        side: plan.solver.cells,
     })
 }
 

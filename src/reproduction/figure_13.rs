@@ -74,7 +74,7 @@ pub(super) fn figures(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figur
             }
         }
     }
-    let [cells, cells_of_work] = [&plan.contact.solver, &scenario.contact.solver].map(|s| s.cells);
+    let [cells, cells_of_work] = [&plan.solver, &scenario.solver].map(|s| s.cells);
     let panels = panels([
         ("stabilised loop", &closed, cells, Marker::Ring),
         (

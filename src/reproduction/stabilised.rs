@@ -35,17 +35,17 @@ pub(super) fn by_sweep(
     interrupt: &AtomicBool,
 ) -> Result<CaseResult> {
     let mut plan = plan.clone();
-    plan.contact.solver.engine = EngineKind::Axisymmetric;
+    plan.solver.engine = EngineKind::Axisymmetric;
     plan.cycle.steps *= finer;
     if finer > 1 {
-        plan.contact.solver.springs *= 2;
+        plan.solver.springs *= 2;
         plan.cycle.tolerance *= 0.1;
     }
     plan.cycle.error_bars = false;
     let case = Case {
         index: 0,
         angular_frequency_rad_per_s: omega,
-        condition: plan.condition(),
+        condition: plan.base.clone(),
     };
     let record = Setup::new(plan)?.run(&case, interrupt);
     let record = record.ok_or(ReproductionError::Interrupted)?;
@@ -63,21 +63,21 @@ pub(super) fn stabilised(
     interrupt: &AtomicBool,
 ) -> Result<Stabilised> {
     let mut plan = plan.clone();
-    plan.contact.solver.engine = engine;
+    plan.solver.engine = engine;
     let cycle = Cycle {
         setup: Setup::new(plan)?,
         omega,
         steps,
         interrupt,
     };
-    let solver = &cycle.setup.plan().contact.solver;
-    let condition = cycle.setup.plan().condition();
-    let engines = cycle.setup.engines(&condition, solver.nodes())?;
+    let solver = &cycle.setup.plan().solver;
+    let condition = &cycle.setup.plan().base;
+    let engines = cycle.setup.engines(condition, solver.nodes())?;
     let mut fine = engines.engine(0)?;
     let (start, width_m) = match engine {
         EngineKind::Axisymmetric => (cycle.search(fine.as_mut())?, engines.half_width_m()),
         EngineKind::HalfSpace => {
-            let half = cycle.setup.engines(&condition, solver.nodes() / 2)?;
+            let half = cycle.setup.engines(condition, solver.nodes() / 2)?;
             let mut coarse = half.engine(0)?;
             let memory = cycle.search(coarse.as_mut())?;
             // Full grid or one symmetry quadrant: both have as many cells either way.
@@ -104,18 +104,14 @@ struct Cycle<'a> {
 impl Cycle<'_> {
     /// What is prescribed at a fraction of the cycle.
     fn prescribed(&self, fraction: f64) -> Prescribed {
-        let drive = &self.setup.plan().drive;
+        let drive = &self.setup.plan().base.drive;
         prescribed(drive.control(), drive.value(fraction))
     }
 
     fn march<'e>(&self, engine: &'e mut dyn Engine) -> Result<March<'e>> {
         let plan = self.setup.plan();
-        let compliance = plan.contact.material.contact_compliance()?;
-        Ok(March::new(
-            engine,
-            compliance,
-            plan.contact.solver.time_rule,
-        ))
+        let compliance = plan.base.contact.material.contact_compliance()?;
+        Ok(March::new(engine, compliance, plan.solver.time_rule))
     }
 
     fn is_interrupted(&self) -> bool {
@@ -129,7 +125,7 @@ impl Cycle<'_> {
             max_cycles: 40,
         };
         let mut march = self.march(engine)?;
-        let drive = &self.setup.plan().drive;
+        let drive = &self.setup.plan().base.drive;
         let cycle = steady::Cycle {
             drive: &|fraction| self.prescribed(fraction),
             mean: prescribed(drive.control(), drive.mean()),

@@ -58,7 +58,7 @@ impl<'a> Held<'a> {
     /// Side of a cell in Hertz radii.
     fn cell(&self) -> f64 {
         let [_, on_cells] = &self.computed;
-        let side_m = 2.0 * on_cells.domain_half_width_m / self.plan.contact.solver.cells as f64;
+        let side_m = 2.0 * on_cells.domain_half_width_m / self.plan.solver.cells as f64;
         side_m / self.scale.contact_radius_m
     }
 
@@ -116,7 +116,7 @@ impl<'a> Held<'a> {
         let point = |(x, y): (f64, Y)| Some((x, Into::<Option<f64>>::into(y)?));
         let drawn = curves.map(|points| points.into_iter().map(point).collect());
         let line = member.line(drawn.exact).label(label);
-        let cells = member.cells(drawn.half_space, self.plan.contact.solver.cells);
+        let cells = member.cells(drawn.half_space, self.plan.solver.cells);
         [line, member.springs(drawn.axisymmetric), cells]
     }
 }
@@ -170,7 +170,7 @@ fn driven_back(
         maximum: plan.drive.maximum(),
         compliance_per_pa: compliance.compliance(plan.drive.duration_s()),
     };
-    let mut solver = plan.contact.solver;
+    let mut solver = plan.solver;
     solver.engine = engine;
     let engines = EngineBuilder::new(plan.contact.indenter.clone(), solver, largest_contact)?;
     let mut engine = engines.engine(0)?;

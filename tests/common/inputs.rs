@@ -51,7 +51,7 @@ pub fn sweep_file(bytes: &[u8]) -> bool {
     let again = sweep_file::plan(&again).ok().unwrap();
     assert_eq!(resolved_text(&again), text);
     // Physics that cannot be is refused before anything is solved. Large grids would only take time.
-    if plan.contact.solver.engine == EngineKind::Axisymmetric && plan.conditions().len() < 50 {
+    if plan.solver.engine == EngineKind::Axisymmetric && plan.conditions().len() < 50 {
         let _ = Setup::new(plan).inspect_err(|why| assert!(!why.to_string().is_empty()));
     }
     true
@@ -69,7 +69,7 @@ pub fn scenario_file(bytes: &[u8]) -> bool {
     let again = Document::parse("resolved.toml", &text).unwrap();
     let again = scenario_file::plan(&again).ok().unwrap();
     assert_eq!(scenario::resolved_text(&again), text);
-    if plan.contact.solver.engine == EngineKind::Axisymmetric {
+    if plan.solver.engine == EngineKind::Axisymmetric {
         let _ = Simulation::new(plan).inspect_err(|why| assert!(!why.to_string().is_empty()));
     }
     true
@@ -407,8 +407,11 @@ impl Records {
         );
         for result in outcome.records.iter().filter_map(|r| r.result.as_ref()) {
             let _ = table::samples(&result.cycle.samples);
-            let _ = table::pressures(&result.cycle.pressures, plan.drive.control());
-            let line = WorkLine::of(&result.cycle.surface_loss, plan.contact.indenter.as_ref());
+            let _ = table::pressures(&result.cycle.pressures, plan.base.drive.control());
+            let line = WorkLine::of(
+                &result.cycle.surface_loss,
+                plan.base.contact.indenter.as_ref(),
+            );
             let _ = table::work(&line);
         }
         let _ = machine::sweep(plan, outcome, hash);

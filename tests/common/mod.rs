@@ -138,7 +138,7 @@ pub fn sweep_plan(
     let drive = HarmonicDrive::load(mean_n, amplitude_n).unwrap();
     let mut plan = SweepPlan::new(material, indenter, drive);
     plan.title = "integration test".into();
-    plan.contact.solver = SolverPlan::default();
+    plan.solver = SolverPlan::default();
     plan.angular_frequencies_rad_per_s = vec![1.0];
     // Tests that look at error bars ask for them.
     plan.cycle.error_bars = false;
@@ -152,7 +152,7 @@ pub fn run_case(plan: &SweepPlan, angular_frequency_rad_per_s: f64) -> CaseRecor
     let case = Case {
         index: 0,
         angular_frequency_rad_per_s,
-        condition: plan.condition(),
+        condition: plan.base.clone(),
     };
     setup.run(&case, &interrupt).unwrap()
 }
@@ -196,7 +196,7 @@ pub fn on_cells(mut plan: SweepPlan, cells: usize, steps: usize) -> SweepPlan {
         error_bars: false,
         ..CyclePlan::default()
     };
-    plan.contact.solver = SolverPlan {
+    plan.solver = SolverPlan {
         engine: EngineKind::HalfSpace,
         cells,
         ..SolverPlan::default()

@@ -126,7 +126,7 @@ fn followed(material: Material, segments: Vec<Segment>) -> SimulationOutcome {
         work_j_per_m2: WORK,
         equilibrium_distance_m: AdhesionPlan::EQUILIBRIUM_DISTANCE_M,
     });
-    plan.contact.solver.springs = 800;
+    plan.solver.springs = 800;
     plan.output.error_bars = false;
     let simulation = Simulation::new(plan).unwrap();
     let outcome = simulation.run(&AtomicBool::new(false), &|_, _| {});

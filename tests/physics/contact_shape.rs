@@ -9,8 +9,8 @@ use contact_dma::contact::{Engine, Instant, Prescribed};
 use contact_dma::drive::{Control, HarmonicDrive, Segment, SegmentedDrive};
 use contact_dma::indenter::{Asperities, Asperity, Ellipsoid, Indenter, Profile, Shifted, Sphere};
 use contact_dma::sweep::history::{Simulation, SimulationEnd, SimulationOutcome};
+use contact_dma::sweep::plan::EngineKind;
 use contact_dma::sweep::plan::scenario::ScenarioPlan;
-use contact_dma::sweep::plan::{EngineKind, SweepPlan};
 
 fn bump(center_x_m: f64) -> Asperity {
     Asperity {
@@ -39,14 +39,12 @@ fn off_the_axis() -> [(Arc<dyn Indenter>, f64); 2] {
 #[test]
 fn a_contact_off_the_axis_is_found_under_approach_and_under_load_control() {
     let mut alone = sweep_plan(pmma_material(), sphere(), 10.0, 5.0);
-    alone.drive = HarmonicDrive::new(Control::Approach, 5e-6, 2e-6, 0.0, 0.0).unwrap();
+    alone.base.drive = HarmonicDrive::new(Control::Approach, 5e-6, 2e-6, 0.0, 0.0).unwrap();
     let alone_n = run_case(&alone, 0.01).result.unwrap().analysis;
     for (shape, count) in off_the_axis() {
         let load = on_cells(sweep_plan(pmma_material(), shape, 10.0, 5.0), 96, 48);
-        let approach = SweepPlan {
-            drive: alone.drive,
-            ..load.clone()
-        };
+        let mut approach = load.clone();
+        approach.base.drive = alone.base.drive;
         let found = run_case(&load, 0.01);
         assert!(found.result.is_some(), "{:?}", found.message);
         let found = run_case(&approach, 0.01);
@@ -71,7 +69,7 @@ fn a_ring_off_the_axis_is_found_under_approach_control() {
     ];
     let ring: Arc<dyn Indenter> = Arc::new(Profile::new(&ring).unwrap());
     let mut plan = on_cells(sweep_plan(pmma_material(), ring, 10.0, 5.0), 64, 48);
-    plan.drive = HarmonicDrive::new(Control::Approach, 1e-6, 5e-7, 0.0, 0.0).unwrap();
+    plan.base.drive = HarmonicDrive::new(Control::Approach, 1e-6, 5e-7, 0.0, 0.0).unwrap();
     let found = run_case(&plan, 0.01);
     assert!(
         found.energy_loss_j().is_some_and(|loss_j| loss_j > 0.0),
@@ -88,8 +86,8 @@ fn simulated(shape: Arc<dyn Indenter>, approach_m: f64, cells: usize) -> Simulat
     let drive = SegmentedDrive::new(Control::Approach, vec![ramp]).unwrap();
     let mut plan = ScenarioPlan::new(pmma_material(), shape, drive);
     plan.step_s = Some(0.1);
-    plan.contact.solver.engine = EngineKind::HalfSpace;
-    plan.contact.solver.cells = cells;
+    plan.solver.engine = EngineKind::HalfSpace;
+    plan.solver.cells = cells;
     let simulation = Simulation::new(plan).unwrap();
     simulation.run(&AtomicBool::new(false), &|_, _| {})
 }

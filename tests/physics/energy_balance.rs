@@ -33,7 +33,7 @@ fn the_dissipation_of_the_branches_closes_with_the_loop_at_second_order_in_the_s
                 let mut plan = pmma(sphere(), amplitude_n);
                 plan.cycle.steps = steps;
                 plan.cycle.tolerance = 1e-10;
-                plan.contact.solver.springs = 1600;
+                plan.solver.springs = 1600;
                 result(&plan, omega).energy_imbalance().unwrap()
             });
             let order = observed_order(&steps, &imbalance);
@@ -59,8 +59,8 @@ fn with_refined_steps_the_balance_closes_to_a_millionth() {
 fn the_balance_closes_on_cells_as_it_does_on_springs() {
     let imbalance = |engine| {
         let mut plan = pmma(sphere(), 5.0);
-        plan.contact.solver.engine = engine;
-        plan.contact.solver.cells = 32;
+        plan.solver.engine = engine;
+        plan.solver.cells = 32;
         plan.cycle.steps = 100;
         plan.cycle.tolerance = 1e-8;
         let found = result(&plan, 0.0084);
@@ -98,8 +98,8 @@ fn each_branch_dissipates_around_its_own_retardation_time() {
 fn the_work_over_the_surface_adds_up_to_the_loss() {
     for engine in [EngineKind::Axisymmetric, EngineKind::HalfSpace] {
         let mut plan = pmma(sphere(), 5.0);
-        plan.contact.solver.engine = engine;
-        plan.contact.solver.cells = 48;
+        plan.solver.engine = engine;
+        plan.solver.cells = 48;
         let found = result(&plan, 0.0084);
         let (total_j, tolerance) = match &found.cycle.surface_loss {
             SurfaceLoss::Radial {

@@ -56,7 +56,7 @@ fn solved(
     plan.cycle.steps = steps;
     plan.cycle.tolerance = tolerance;
     plan.cycle.error_bars = error_bars;
-    plan.contact.solver.springs = springs;
+    plan.solver.springs = springs;
     let record = run_case(&plan, omega);
     let disc = record
         .message

@@ -138,13 +138,13 @@ fn a_fractional_indenter_brings_the_error_of_its_series_along() {
         bar.unwrap().material / result.analysis.energy_loss_j
     };
     let body = bar(&plan);
-    let indenter = plan.contact.material.as_ref().clone();
+    let indenter = plan.base.contact.material.as_ref().clone();
     let relaxation = indenter.relaxation().unwrap().clone();
     let exact = Compressibility::PoissonRatio(POISSON_RATIO);
     let stiff = relaxation.scaled(1.0).unwrap();
     let plain =
         contact_dma::material::Material::from_relaxation(stiff, ModulusKind::Longitudinal, exact);
-    plan.contact.material = Arc::new(plain.unwrap().against(indenter));
+    plan.base.contact.material = Arc::new(plain.unwrap().against(indenter));
     // Half of the loss is the indenter's, and so is half of what its series misses.
     let pair = bar(&plan);
     assert!(

@@ -79,11 +79,11 @@ impl Experiment {
         (
             sweep.cycle.steps,
             sweep.cycle.tolerance,
-            sweep.contact.solver.springs,
+            sweep.solver.springs,
         ) = (200, 1e-6, 200);
         sweep.cycle.error_bars = false;
         if let Some((cycle, solver)) = resolution {
-            (sweep.cycle, sweep.contact.solver) = (cycle, solver);
+            (sweep.cycle, sweep.solver) = (cycle, solver);
         }
         let sweep = Sweep::from(sweep)
             .angular_frequencies_rad_per_s(frequencies())
@@ -283,7 +283,7 @@ fn cells_serve_as_springs_do() {
     let experiment = Experiment::losses_and_phases(0.0, false);
     let resolution = Some((cycle, solver));
     let mut plan = experiment.plan(&truth, (indenter, drive), resolution, &mut Random(1));
-    (plan.cycle, plan.contact.solver, plan.branches) = (cycle, solver, Some(1));
+    (plan.cycle, plan.solver, plan.branches) = (cycle, solver, Some(1));
     let found = found(&plan).unwrap();
     let (_, _, worst) = against(&truth, &found);
     println!("cells: off by {worst:.1e}");

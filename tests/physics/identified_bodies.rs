@@ -70,7 +70,7 @@ impl With {
     fn plan(self, drive: Driven, measurements: Measurements, cycle: CyclePlan) -> IdentifyPlan {
         let known = self.compressibility();
         let mut plan = IdentifyPlan::new(known, self.indenter(), drive, measurements);
-        plan.contact.solver = self.solver();
+        plan.solver = self.solver();
         plan.contact.material.counterbody = self.counterbody;
         (plan.contact.layer, plan.contact.adhesion) = (self.layer, self.adhesion);
         plan.branches = Some(2);
@@ -85,9 +85,9 @@ fn of_cycles(drive: HarmonicDrive, with: &With) -> IdentifyPlan {
         .map(|k| 10_f64.powf(0.8 * f64::from(k) - 2.0))
         .collect();
     let mut sweep = SweepPlan::new(with.truth(), with.indenter(), drive);
-    (sweep.contact.layer, sweep.contact.adhesion) = (with.layer, with.adhesion);
-    (sweep.cycle, sweep.contact.solver) = (IdentifyPlan::CYCLE, with.solver());
-    sweep.contact.solver.cells = with.measured_on_cells.unwrap_or(with.solver().cells);
+    (sweep.base.contact.layer, sweep.base.contact.adhesion) = (with.layer, with.adhesion);
+    (sweep.cycle, sweep.solver) = (IdentifyPlan::CYCLE, with.solver());
+    sweep.solver.cells = with.measured_on_cells.unwrap_or(with.solver().cells);
     let sweep = Sweep::from(sweep).angular_frequencies_rad_per_s(omegas);
     let records = sweep.unwrap().solve().unwrap().records;
     let quantities = [
@@ -119,7 +119,7 @@ fn of_cycles(drive: HarmonicDrive, with: &With) -> IdentifyPlan {
 fn of_history(drive: SegmentedDrive, with: &With) -> IdentifyPlan {
     let mut scenario = ScenarioPlan::new(with.truth(), with.indenter(), drive.clone());
     (scenario.contact.layer, scenario.contact.adhesion) = (with.layer, with.adhesion);
-    (scenario.contact.solver, scenario.output.error_bars) = (with.solver(), false);
+    (scenario.solver, scenario.output.error_bars) = (with.solver(), false);
     let simulation = Simulation::new(scenario).unwrap();
     let outcome = simulation.run(&AtomicBool::new(false), &|_, _| {});
     let times: Vec<f64> = (0..40)

@@ -68,7 +68,7 @@ fn plan(
     scenario.output.error_bars = false;
     let solver = IdentifyPlan::solver(indenter.as_ref(), None);
     if solver.engine == EngineKind::HalfSpace {
-        scenario.contact.solver = solver;
+        scenario.solver = solver;
     }
     let outcome = Simulation::new(scenario).unwrap();
     let outcome = outcome.run(&AtomicBool::new(false), &|_, _| {});
@@ -230,7 +230,7 @@ fn a_history_that_never_changes_and_one_that_no_solid_has_are_refused() {
     let indenter: Arc<dyn Indenter> = Arc::new(Sphere::new(1e-3).unwrap());
     let measurements = Measurements::of_history(&drive, &rows(|t| 1e-6 / t)).unwrap();
     let mut plan = IdentifyPlan::new(POISSON, indenter, Driven::History(drive), measurements);
-    plan.contact.solver.springs = 40;
+    plan.solver.springs = 40;
     assert!(matches!(
         found(&plan),
         Err(IdentifyError::Contradiction { .. })

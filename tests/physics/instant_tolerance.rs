@@ -27,7 +27,7 @@ fn reference(plan: &SweepPlan, omega: f64) -> Option<CaseRecord> {
     let pairs = tolerances.into_iter().flat_map(|t| [(t, 1e-2), (t, 1.0)]);
     let mut records = pairs.map(|(instant, cycle)| {
         let mut plan = plan.clone();
-        plan.contact.solver.tolerance = Some(instant);
+        plan.solver.tolerance = Some(instant);
         plan.cycle.tolerance *= cycle;
         run_case(&plan, omega)
     });
@@ -87,7 +87,7 @@ fn a_modulus_that_changes_by_a_million_has_its_cycle_on_cells() {
         .energy_loss_j()
         .unwrap_or_else(|| panic!("{:?}", cells.message));
     let mut springs = plan.clone();
-    springs.contact.solver = SolverPlan::default();
+    springs.solver = SolverPlan::default();
     let springs_j = run_case(&springs, 10.0).energy_loss_j().unwrap();
     // The error of the cells, second order in 1/29 of the radius.
     assert!(

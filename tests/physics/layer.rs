@@ -268,9 +268,9 @@ fn the_domain_is_as_large_as_the_contact_from_far_below_its_radius_to_far_above(
 
 fn on_layer(indenter: Arc<dyn Indenter>, amplitude_n: f64, layer: LayerPlan) -> CaseResult {
     let mut plan: SweepPlan = sweep_plan(pmma_material(), indenter, 10.0, amplitude_n);
-    plan.contact.layer = Some(layer);
-    plan.contact.solver.engine = EngineKind::HalfSpace;
-    plan.contact.solver.cells = 48;
+    plan.base.contact.layer = Some(layer);
+    plan.solver.engine = EngineKind::HalfSpace;
+    plan.solver.cells = 48;
     plan.cycle.steps = 200;
     plan.cycle.tolerance = 1e-6;
     plan.angular_frequencies_rad_per_s = vec![0.00844];

@@ -59,7 +59,7 @@ fn lifted_plan(random: &mut Random) -> SweepPlan {
     // In half of them the contact begins and ends anywhere among the steps.
     let phase_rad = random.between(-TAU, TAU).max(0.0);
     let mean = part * amplitude;
-    plan.drive = HarmonicDrive::new(control, mean, amplitude, phase_rad, 0.0).unwrap();
+    plan.base.drive = HarmonicDrive::new(control, mean, amplitude, phase_rad, 0.0).unwrap();
     plan
 }
 
@@ -76,7 +76,7 @@ fn lifted_cases(solids: u64, seed: u64) -> Vec<(SweepPlan, f64)> {
     let mut random = Random(seed);
     let of_solid = |_| {
         let plan = lifted_plan(&mut random);
-        let omegas = ten_decades(&plan.contact.material);
+        let omegas = ten_decades(&plan.base.contact.material);
         omegas
             .into_iter()
             .map(move |omega| (plan.clone(), omega))
@@ -93,13 +93,13 @@ fn bar_over_error(found: &CaseResult, exact: &CaseResult, quantity: Quantity) ->
 }
 
 fn described(plan: &SweepPlan, omega: f64) -> String {
-    let drive = &plan.drive;
+    let drive = &plan.base.drive;
     let (mean, amplitude) = (drive.mean(), drive.amplitude());
-    let material = &plan.contact.material;
+    let material = &plan.base.contact.material;
     format!(
         "{omega:e} rad/s, {:?} {mean} +- {amplitude}, {}, {:?}",
         drive.control(),
-        plan.contact.indenter.shape(),
+        plan.base.contact.indenter.shape(),
         material.relaxation()
     )
 }
@@ -210,7 +210,7 @@ fn on_springs_every_cycle_that_lifts_off_is_found_directly() {
         finer.cycle.error_bars = false;
         finer.cycle.steps *= times;
         finer.cycle.tolerance = 1e-6;
-        finer.contact.solver.springs *= times.min(4);
+        finer.solver.springs *= times.min(4);
         finer
     });
 }
@@ -227,9 +227,9 @@ fn on_cells_every_cycle_that_lifts_off_is_found_directly() {
         .collect();
     // Against springs, which are as good as exact beside so few cells.
     check_all("cells", &coarse, |plan| {
-        let material = plan.contact.material.as_ref().clone();
-        let mut springs = sweep_plan(material, Arc::clone(&plan.contact.indenter), 1.0, 0.5);
-        springs.drive = plan.drive;
+        let material = plan.base.contact.material.as_ref().clone();
+        let mut springs = sweep_plan(material, Arc::clone(&plan.base.contact.indenter), 1.0, 0.5);
+        springs.base.drive = plan.base.drive;
         springs.cycle.steps = 400;
         springs
     });
@@ -284,7 +284,7 @@ fn nothing_jumps_where_a_branch_no_longer_moves_within_the_period() {
             1.0,
             0.5,
         );
-        plan.drive = HarmonicDrive::new(control, mean, amplitude, 0.0, 0.0).unwrap();
+        plan.base.drive = HarmonicDrive::new(control, mean, amplitude, 0.0, 0.0).unwrap();
         (plan.cycle.steps, plan.cycle.tolerance) = (100, 1e-6);
         let products = omegas.map(|omega| {
             let record = run_case(&plan, omega);
@@ -326,8 +326,8 @@ fn moderate(random: &mut Random, control: Control, mean: f64, amplitude: f64) ->
     let omega = random.power_of_ten(-1.0, 1.5) / slowest_s;
     let phase_rad = random.between(0.0, TAU);
     let mut plan = sweep_plan(material, Arc::new(Sphere::new(0.01).unwrap()), 1.0, 0.5);
-    plan.drive = HarmonicDrive::new(control, mean, amplitude, phase_rad, 0.0).unwrap();
-    plan.contact.solver.springs = 60;
+    plan.base.drive = HarmonicDrive::new(control, mean, amplitude, phase_rad, 0.0).unwrap();
+    plan.solver.springs = 60;
     (plan, omega)
 }
 
@@ -425,7 +425,7 @@ fn an_open_cycle_has_its_extremes_on_its_own_samples() {
             1.0,
             0.2,
         );
-        plan.drive = HarmonicDrive::new(Control::Load, 1.0, 0.2, phase_rad, 0.0).unwrap();
+        plan.base.drive = HarmonicDrive::new(Control::Load, 1.0, 0.2, phase_rad, 0.0).unwrap();
         (plan.cycle.method, plan.cycle.at_cycle) = (Method::March, Some(1));
         let [found, exact] =
             found_and_in_many_steps(&plan, 6.67, 8).map(|record| record.result.unwrap());

@@ -30,8 +30,8 @@ fn plan(indenter: Arc<dyn Indenter>) -> SweepPlan {
 
 fn on_cells(indenter: Arc<dyn Indenter>, cells: usize) -> SweepPlan {
     let mut plan = plan(indenter);
-    plan.contact.solver.engine = EngineKind::HalfSpace;
-    plan.contact.solver.cells = cells;
+    plan.solver.engine = EngineKind::HalfSpace;
+    plan.solver.cells = cells;
     plan
 }
 
@@ -184,7 +184,7 @@ fn an_apex_and_a_rim_have_no_pressure_and_cells_have_their_mean() {
 #[test]
 fn a_contact_that_opens_has_no_pressure_while_it_is_open() {
     let mut plan = plan(sphere());
-    plan.drive = HarmonicDrive::new(Control::Approach, 2e-6, 8e-6, 0.7, 0.0).unwrap();
+    plan.base.drive = HarmonicDrive::new(Control::Approach, 2e-6, 8e-6, 0.7, 0.0).unwrap();
     let found = result(&plan);
     let [greatest, _, least, _] = &found.cycle.pressures[..] else {
         panic!("{} instants", found.cycle.pressures.len());
@@ -227,7 +227,7 @@ fn both_engines_have_one_line_of_work_density_under_a_sphere() {
     let line = |plan: &SweepPlan| {
         WorkLine::of(
             &result(plan).cycle.surface_loss,
-            plan.contact.indenter.as_ref(),
+            plan.base.contact.indenter.as_ref(),
         )
     };
     let springs = line(&plan(sphere()));

@@ -33,7 +33,7 @@ fn on_springs(indenter: Arc<dyn Indenter>) -> CaseResult {
 
 fn with_bars(indenter: Arc<dyn Indenter>, layer: Option<LayerPlan>, cells: usize) -> CaseResult {
     let mut plan = on_cells(plan_of(indenter), cells, STEPS);
-    plan.contact.layer = layer;
+    plan.base.contact.layer = layer;
     plan.cycle.error_bars = true;
     run_case(&plan, OMEGA).result.unwrap()
 }

@@ -61,7 +61,7 @@ fn found_and_exact(plan: &SweepPlan, omega: f64, times: usize) -> Result<[CaseRe
     let mut exact = plan.clone();
     exact.cycle.steps *= times;
     exact.cycle.tolerance = 1e-6;
-    exact.contact.solver.springs *= times;
+    exact.solver.springs *= times;
     Ok([solved(&with_bars, omega)?, solved(&exact, omega)?])
 }
 
@@ -174,7 +174,7 @@ fn single_branches_of_any_strength_give_a_curve_without_gaps_and_a_punch_its_clo
     for ratio in [3.0, 10.0, 30.0, 100.0, 300.0, 1e3, 1e4] {
         for (shape, amplitude_n) in shapes.iter().flat_map(|s| [0.01, 0.5, 1.0].map(|a| (s, a))) {
             let mut plan = sweep_plan(zener(ratio), Arc::clone(shape), 1.0, amplitude_n);
-            plan.contact.solver.springs = 100;
+            plan.solver.springs = 100;
             for k in 0..25 {
                 // Six decades about the peaks of loss modulus and loss compliance.
                 let omega = ratio.sqrt() * 10_f64.powf(0.25 * f64::from(k) - 3.0);
@@ -187,14 +187,14 @@ fn single_branches_of_any_strength_give_a_curve_without_gaps_and_a_punch_its_clo
         .map(|(plan, omega)| {
             let loss_j = solved(plan, *omega).unwrap().analysis.energy_loss_j;
             assert!(loss_j > 0.0, "{omega}: {loss_j}");
-            if plan.contact.indenter.shape() != shapes[2].shape() {
+            if plan.base.contact.indenter.shape() != shapes[2].shape() {
                 return 0.0;
             }
             // In contact throughout: loss = pi W_A^2 Im C* / (2 a).
-            let compliance = plan.contact.material.contact_compliance().unwrap();
+            let compliance = plan.base.contact.material.contact_compliance().unwrap();
             let answer = compliance.complex_compliance(*omega);
             let exact_j =
-                std::f64::consts::PI * plan.drive.amplitude().powi(2) * answer.im.abs() / 2e-3;
+                std::f64::consts::PI * plan.base.drive.amplitude().powi(2) * answer.im.abs() / 2e-3;
             (loss_j / exact_j - 1.0).abs()
         })
         .collect();
@@ -221,10 +221,14 @@ fn small_amplitudes(solids: u64, seed: u64) -> Vec<(SweepPlan, f64)> {
 /// Bar of the loss over its distance from the closed form.
 fn ratio_to_closed_form(plan: &SweepPlan, omega: f64) -> (f64, String) {
     let found = solved(plan, omega).unwrap();
-    let compliance = plan.contact.material.contact_compliance().unwrap();
+    let compliance = plan.base.contact.material.contact_compliance().unwrap();
     let relaxed = compliance.equilibrium_compliance().unwrap();
-    let (mean_n, amplitude_n) = (plan.drive.mean(), plan.drive.amplitude());
-    let radius_m = plan.contact.indenter.elastic_half_width_m(mean_n, relaxed);
+    let (mean_n, amplitude_n) = (plan.base.drive.mean(), plan.base.drive.amplitude());
+    let radius_m = plan
+        .base
+        .contact
+        .indenter
+        .elastic_half_width_m(mean_n, relaxed);
     let answer = compliance.complex_compliance(omega);
     let exact_j = std::f64::consts::PI * amplitude_n.powi(2) * answer.im.abs() / (2.0 * radius_m);
     let bars = found.errors.as_ref().unwrap();
@@ -232,8 +236,8 @@ fn ratio_to_closed_form(plan: &SweepPlan, omega: f64) -> (f64, String) {
     let error_j = (found.analysis.energy_loss_j - exact_j).abs();
     let what = format!(
         "{:?}, {} {omega:e} rad/s, amplitude {:e}: off by {:.1e}, bar {:.1e} of the loss",
-        plan.contact.solver.engine,
-        plan.contact.indenter.shape(),
+        plan.solver.engine,
+        plan.base.contact.indenter.shape(),
         amplitude_n / mean_n,
         error_j / exact_j,
         bar_j / exact_j
@@ -281,14 +285,11 @@ fn the_closed_form_of_small_amplitudes_is_off_in_proportion_to_the_amplitude() {
             1.0,
             part,
         );
-        (
-            plan.cycle.steps,
-            plan.contact.solver.springs,
-            plan.cycle.tolerance,
-        ) = (steps, springs, 1e-7);
-        let compliance = plan.contact.material.contact_compliance().unwrap();
+        (plan.cycle.steps, plan.solver.springs, plan.cycle.tolerance) = (steps, springs, 1e-7);
+        let compliance = plan.base.contact.material.contact_compliance().unwrap();
         let omega = 0.5;
         let radius_m = plan
+            .base
             .contact
             .indenter
             .elastic_half_width_m(1.0, compliance.equilibrium_compliance().unwrap());
@@ -338,7 +339,7 @@ fn a_peak_of_the_pressure_in_a_layer_at_the_edge_that_steps_do_not_see_lies_with
         plan.cycle.error_bars = true;
         let found = solved(&plan, omega).unwrap();
         plan.cycle.error_bars = false;
-        (plan.cycle.steps, plan.contact.solver.springs) = (3200, 1600);
+        (plan.cycle.steps, plan.solver.springs) = (3200, 1600);
         let exact = solved(&plan, omega).unwrap();
         let peak_pa = |result| Quantity::PeakPressureMax.of(result).unwrap();
         let error_pa = (peak_pa(&found) - peak_pa(&exact)).abs();

@@ -737,7 +737,7 @@ fn the_same_height_map_comes_from_a_matrix_from_points_and_from_npy() {
     write(folder.path(), "points.csv", &points_text(&rows, spacing));
     let approach = |block: &str| {
         let setup = setup(folder.path(), block, "tolerance = 1e-9");
-        let indenter = &setup.plan().contact.indenter;
+        let indenter = &setup.plan().base.contact.indenter;
         let record = setup
             .run(&setup.plan().cases()[0], &AtomicBool::new(false))
             .unwrap();
@@ -802,11 +802,11 @@ fn the_resolved_sweep_gives_every_shape_again() {
         assert_eq!(resolved::resolved_text(&again), text);
         // A map's own cells are those of the set-up.
         let again = Setup::new(again).unwrap().plan().clone();
-        assert_eq!(again.contact.solver, plan.contact.solver);
+        assert_eq!(again.solver, plan.solver);
         for (x, y) in [(0.0, 0.0), (3e-6, -7e-6), (2e-4, 1e-4), (1.0, 1.0)] {
             assert_eq!(
-                again.contact.indenter.gap_m(x, y),
-                plan.contact.indenter.gap_m(x, y)
+                again.base.contact.indenter.gap_m(x, y),
+                plan.base.contact.indenter.gap_m(x, y)
             );
         }
     }
@@ -830,7 +830,7 @@ fn a_tilted_map_in_micrometres_is_the_map_that_it_is_without_tilt_in_metres() {
     };
     let plain = plan("file = \"map.csv\"");
     // The map has the cells it has, and the plan says so.
-    assert_eq!(plain.contact.solver.cells, 24);
+    assert_eq!(plain.solver.cells, 24);
     assert!(!resolved::resolved_text(&plain).contains("\ncells ="));
     for rest in [
         "file = \"um.csv\"\nheight_unit = \"um\"",
@@ -840,7 +840,7 @@ fn a_tilted_map_in_micrometres_is_the_map_that_it_is_without_tilt_in_metres() {
         let other = plan(rest);
         for (x, y) in [(0.0, 0.0), (1e-4, -2e-4), (-5e-4, 4.7e-4)] {
             let difference =
-                other.contact.indenter.gap_m(x, y) - plain.contact.indenter.gap_m(x, y);
+                other.base.contact.indenter.gap_m(x, y) - plain.base.contact.indenter.gap_m(x, y);
             // Rounding of heights of 200 um, before the tilt is taken out.
             assert!(difference.abs() < 1e-18, "{rest}: {difference:e}");
         }
@@ -894,7 +894,7 @@ fn the_engine_is_chosen_by_the_shape_and_a_wrong_choice_is_explained() {
         ("shape = \"sphere\"\nradius = 1", EngineKind::Axisymmetric),
     ] {
         let setup = setup(folder.path(), block, "cells = 16");
-        assert_eq!(setup.plan().contact.solver.engine, engine, "{block}");
+        assert_eq!(setup.plan().solver.engine, engine, "{block}");
     }
     for (block, because) in [
         (ellipsoid, "two different radii"),

@@ -111,7 +111,7 @@ fn scenario(random: &mut Random, springs: usize) -> ScenarioPlan {
     let step_s = (random.unit() < 0.33).then(|| drive.duration_s() / random.between(30.0, 300.0));
     let mut plan = ScenarioPlan::new(material(random), shape(random), drive);
     plan.step_s = step_s;
-    plan.contact.solver.springs = springs;
+    plan.solver.springs = springs;
     plan
 }
 
@@ -124,8 +124,8 @@ fn run(simulation: &Simulation) -> SimulationOutcome {
 /// The rows of the history with so many times the steps, on springs, so many of them.
 fn refined(plan: &ScenarioPlan, steps: usize, springs: usize) -> Vec<HistoryRow> {
     let mut plan = plan.clone();
-    plan.contact.solver.engine = EngineKind::Axisymmetric;
-    plan.contact.solver.springs = springs;
+    plan.solver.engine = EngineKind::Axisymmetric;
+    plan.solver.springs = springs;
     let simulation = Simulation::of_fineness(plan, Fineness::Split(steps)).unwrap();
     let rows = run(&simulation).rows;
     let in_full = simulation.schedule().in_full.iter();
@@ -231,8 +231,8 @@ fn the_true_error_lies_inside_the_bar_on_cells() {
     let mut plans = Vec::new();
     while plans.len() < count as usize {
         let mut plan = scenario(&mut random, 400);
-        plan.contact.solver.engine = EngineKind::HalfSpace;
-        plan.contact.solver.cells = asked("CONTACT_DMA_CELLS", 40) as usize;
+        plan.solver.engine = EngineKind::HalfSpace;
+        plan.solver.cells = asked("CONTACT_DMA_CELLS", 40) as usize;
         // The largest pressure of cells is a mean over a cell: no bar holds where it grows beyond all bounds.
         if plan.contact.indenter.pressure_is_bounded() {
             plans.push(plan);
@@ -263,8 +263,8 @@ fn cells_follow_a_contact_that_grows_fifty_times() {
     let sphere = Arc::new(Sphere::new(0.01).unwrap());
     let drive = SegmentedDrive::new(Control::Load, vec![step]).unwrap();
     let mut plan = ScenarioPlan::new(material, sphere, drive);
-    plan.contact.solver.engine = EngineKind::HalfSpace;
-    plan.contact.solver.cells = 40;
+    plan.solver.engine = EngineKind::HalfSpace;
+    plan.solver.cells = 40;
     let exact = refined(&plan, 8, 800);
     let outcome = run(&Simulation::new(plan.clone()).unwrap());
     let growth = exact[exact.len() - 1].contact_radius_m / exact[0].contact_radius_m;

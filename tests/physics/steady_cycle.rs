@@ -48,7 +48,7 @@ fn closed(mut plan: SweepPlan, steps: usize, springs: usize) -> SweepPlan {
     plan.cycle.steps = steps;
     plan.cycle.tolerance = 1e-9;
     plan.cycle.max_cycles = 10_000;
-    plan.contact.solver.springs = springs;
+    plan.solver.springs = springs;
     plan
 }
 
@@ -111,12 +111,12 @@ fn a_flat_punch_on_cells_is_the_flat_punch_on_springs_times_the_stiffness_of_its
     let springs = result(&marched, omega).analysis;
     for cells in [16, 17, 32] {
         let mut plan = marched.clone();
-        plan.contact.solver.engine = EngineKind::HalfSpace;
-        plan.contact.solver.cells = cells;
-        plan.contact.solver.tolerance = Some(1e-10);
+        plan.solver.engine = EngineKind::HalfSpace;
+        plan.solver.cells = cells;
+        plan.solver.tolerance = Some(1e-10);
         let record = run_case(&plan, omega);
         let setup = Setup::new(plan.clone()).unwrap();
-        let engines = setup.engines(&plan.condition(), cells).unwrap();
+        let engines = setup.engines(&plan.base, cells).unwrap();
         let mut engine = engines.engine(record.domain_enlarged).unwrap();
         let load = Prescribed::LoadN(1.0);
         let (elastic, _) = first_touch(engine.as_mut(), 1e-10, load).unwrap();
@@ -203,7 +203,7 @@ fn the_loss_of_a_sphere_goes_over_into_that_of_the_punch_of_its_relaxed_contact_
 /// A Zener body with equal springs and a retardation time of 1 s under (W_0/2)(1 + sin(2 pi f t + 3 pi/2)).
 fn zener_plan() -> SweepPlan {
     let mut plan = sweep_plan(zener_material(), sphere(), 0.5 * MEAN_N, 0.5 * MEAN_N);
-    plan.drive =
+    plan.base.drive =
         HarmonicDrive::new(Control::Load, 0.5 * MEAN_N, 0.5 * MEAN_N, 1.5 * PI, 0.0).unwrap();
     plan
 }
@@ -327,8 +327,8 @@ fn the_loss_scales_exactly_with_the_load() {
                     MEAN_N * factor,
                     5.0 * factor,
                 );
-                plan.contact.solver.engine = engine;
-                plan.contact.solver.cells = 24;
+                plan.solver.engine = engine;
+                plan.solver.cells = 24;
                 let record = run_case(&plan, 0.01);
                 (record.energy_loss_j().unwrap(), record.cycles)
             };
@@ -366,7 +366,7 @@ fn the_loss_converges_with_second_order_under_the_linear_rule_and_first_under_th
     ] {
         let errors = STEPS.map(|steps| {
             let mut plan = closed(pmma_plan(sphere(), 5.0), steps, 1600);
-            plan.contact.solver.time_rule = rule;
+            plan.solver.time_rule = rule;
             relative(result(&plan, omega).analysis.energy_loss_j, exact_j)
         });
         let found = observed_order(&STEPS[..3], &errors[..3]);
@@ -516,11 +516,11 @@ fn a_load_that_falls_to_zero_between_two_samples_is_followed_on_odd_grids_too() 
     // The contact shrinks to the one cell in the middle and grows again from there.
     let mut plan = pmma_plan(sphere(), MEAN_N);
     plan.cycle.steps = 201;
-    plan.contact.solver.engine = EngineKind::HalfSpace;
-    plan.contact.solver.cells = 33;
+    plan.solver.engine = EngineKind::HalfSpace;
+    plan.solver.cells = 33;
     let found = run_case(&plan, 0.01);
     assert_eq!(found.status, Status::Converged, "{:?}", found.message);
-    plan.contact.solver.engine = EngineKind::Axisymmetric;
+    plan.solver.engine = EngineKind::Axisymmetric;
     let expected = run_case(&plan, 0.01);
     // 33 cells: 1.4e-5 was seen; the luck of the edge cells allows a few times that.
     let error = relative(

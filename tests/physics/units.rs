@@ -83,9 +83,9 @@ fn case(units: &Units, engine: EngineKind) -> CaseRecord {
     let sphere = Arc::new(Sphere::new(0.01 * units.length).unwrap());
     let force = units.stress * units.length * units.length;
     let mut plan = sweep_plan(material, sphere, 10.0 * force, 9.0 * force);
-    plan.contact.solver.engine = engine;
-    plan.contact.solver.cells = 24;
-    plan.contact.solver.tolerance = Some(1e-10);
+    plan.solver.engine = engine;
+    plan.solver.cells = 24;
+    plan.solver.tolerance = Some(1e-10);
     plan.cycle.steps = 60;
     run_case(&plan, 0.02 / units.time)
 }

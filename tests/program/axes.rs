@@ -88,7 +88,7 @@ fn losses(plan: SweepPlan) -> Vec<(Option<f64>, u64)> {
 fn results(mut plan: SweepPlan) -> Vec<(Option<f64>, CaseResult)> {
     plan.cycle.error_bars = true;
     // Coarser resolutions need so many of both.
-    (plan.cycle.steps, plan.contact.solver.springs) = (32, 48);
+    (plan.cycle.steps, plan.solver.springs) = (32, 48);
     let result = |record: CaseRecord| {
         let result = record.result.unwrap();
         assert!(result.errors.is_some());

@@ -116,7 +116,7 @@ fn values_that_cannot_be_are_refused_where_they_are_given() {
     let case = contact_dma::sweep::plan::Case {
         index: 0,
         angular_frequency_rad_per_s: -1.0,
-        condition: plan.condition(),
+        condition: plan.base.clone(),
     };
     let setup = Setup::new(plan).unwrap();
     let record = setup.run(&case, &AtomicBool::new(false)).unwrap();
@@ -140,7 +140,7 @@ fn a_history_with_values_that_cannot_be_is_refused() {
         assert!(Simulation::new(plan).is_err(), "{step_s}");
     }
     let mut coarse = plan.clone();
-    coarse.contact.solver.springs = 1;
+    coarse.solver.springs = 1;
     assert!(Simulation::new(coarse).is_err());
     assert!(Simulation::new(plan).is_ok());
 }

@@ -174,10 +174,7 @@ fn where_one_indenter_needs_cells_all_are_on_cells() {
     let pmma = alone("material", MATERIALS[0]);
     let lenses = [INDENTERS[0], INDENTERS[2]];
     let text = format!("{COMMON}{pmma}{}", listed("indenter", &lenses));
-    assert_eq!(
-        read(&text).unwrap().contact.solver.engine,
-        EngineKind::HalfSpace
-    );
+    assert_eq!(read(&text).unwrap().solver.engine, EngineKind::HalfSpace);
     let on_cells = COMMON.replace("[solver]", "[solver]\nengine = \"half-space\"");
     let under = |indenter| format!("{on_cells}{pmma}{}", alone("indenter", indenter));
     assert_is_all_of(&text, &lenses.map(under));

@@ -213,7 +213,7 @@ fn imposing_the_approach_of_a_step_load_gives_its_pressure_history_back_at_every
     for engine in [EngineKind::Axisymmetric, EngineKind::HalfSpace] {
         let solver = SolverPlan {
             engine,
-            ..plan.contact.solver
+            ..plan.solver
         };
         let largest = LargestContact {
             control: Control::Load,

@@ -91,12 +91,12 @@ fn pmma(angular_frequencies_rad_per_s: &[f64]) -> SweepPlan {
     let mut plan = sweep_plan(pmma_material(), Arc::new(sphere), 10.0, 5.0);
     plan.angular_frequencies_rad_per_s = angular_frequencies_rad_per_s.to_vec();
     plan.cycle.steps = 60;
-    plan.contact.solver.springs = 120;
+    plan.solver.springs = 120;
     plan
 }
 
 fn with_amplitudes(mut plan: SweepPlan, amplitudes: &[f64]) -> SweepPlan {
-    let varied = Varied::amplitude(plan.drive.control());
+    let varied = Varied::amplitude(plan.base.drive.control());
     let axis = Axes::of_drive(&plan, varied, amplitudes.iter().copied());
     plan.axes = Some(axis.unwrap());
     plan
@@ -104,7 +104,7 @@ fn with_amplitudes(mut plan: SweepPlan, amplitudes: &[f64]) -> SweepPlan {
 
 /// Two amplitudes, each under two means, phases and rests: 16 conditions.
 fn over_four_axes(mut plan: SweepPlan) -> SweepPlan {
-    let control = plan.drive.control();
+    let control = plan.base.drive.control();
     let keys = [
         ("amplitude", Some(Dimension::Force), [1.0, 4.0]),
         ("mean", Some(Dimension::Force), [8.0, 10.0]),
@@ -120,7 +120,7 @@ fn over_four_axes(mut plan: SweepPlan) -> SweepPlan {
         Condition {
             values: AxisValues::new(&values).unwrap(),
             drive: drive.unwrap(),
-            ..plan.condition()
+            ..plan.base.clone()
         }
     };
     plan.axes = Some(Axes {
@@ -182,8 +182,8 @@ fn integral(swept: &Swept) -> f64 {
 fn the_work_over_the_surface_adds_up_to_the_energy_loss_with_both_engines() {
     let springs = swept(pmma(&[0.00844]));
     let mut plan = pmma(&[0.00844]);
-    plan.contact.solver.engine = EngineKind::HalfSpace;
-    plan.contact.solver.cells = 64;
+    plan.solver.engine = EngineKind::HalfSpace;
+    plan.solver.cells = 64;
     let cells = swept(plan);
     for (swept, tolerance) in [
         // Trapezia over 120 springs, with steps of the contact's edge across them.
@@ -239,7 +239,7 @@ fn the_indentation_formula_is_exact_for_a_punch_and_the_worse_the_larger_the_amp
  {
     let omegas = [0.004, 0.008, 0.02];
     let mut plan = pmma(&omegas);
-    plan.contact.indenter = Arc::new(FlatPunch::new(1e-3).unwrap());
+    plan.base.contact.indenter = Arc::new(FlatPunch::new(1e-3).unwrap());
     let punch = swept(plan);
     let differences = |swept: &Swept, of: &str| swept.column("moduli.csv", of);
     for of in ["storage_relative_difference", "loss_relative_difference"] {
@@ -267,7 +267,7 @@ fn figures_that_do_not_apply_are_left_out_and_said() {
 
     let mut elastic = pmma(&[0.004, 0.008, 0.02]);
     let relaxation = Relaxation::new(2e9, Vec::new()).unwrap();
-    elastic.contact.material =
+    elastic.base.contact.material =
         Arc::new(Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.3).unwrap());
     let elastic = swept(elastic);
     assert!(elastic.left_out.iter().any(|why| why.contains("branches")));
@@ -275,7 +275,7 @@ fn figures_that_do_not_apply_are_left_out_and_said() {
 
     // An approach that is prescribed has no harmonics to be mapped.
     let mut approach = pmma(&[0.004, 0.008, 0.02]);
-    approach.drive = HarmonicDrive::new(Control::Approach, 1e-6, 0.5e-6, 0.0, 0.0).unwrap();
+    approach.base.drive = HarmonicDrive::new(Control::Approach, 1e-6, 0.5e-6, 0.0, 0.0).unwrap();
     let approach = swept(with_amplitudes(approach, &[0.2e-6, 0.5e-6, 2e-6]));
     assert!(
         approach
@@ -317,8 +317,8 @@ fn a_map_is_told_by_its_own_cells_whatever_the_plan_asks_for() {
     let mut plan = sweep_plan(pmma_material(), Arc::new(map.unwrap()), 1.0, 0.5);
     plan.angular_frequencies_rad_per_s = vec![0.008];
     plan.cycle.steps = 32;
-    plan.contact.solver.engine = EngineKind::HalfSpace;
-    assert_eq!(plan.contact.solver.cells, 128);
+    plan.solver.engine = EngineKind::HalfSpace;
+    assert_eq!(plan.solver.cells, 128);
     let swept = swept(plan);
     assert_eq!(swept.outcome.records[0].nodes, 20);
     let caption = fs::read_to_string(swept.folder.path().join("loops.caption.txt")).unwrap();
@@ -332,10 +332,10 @@ fn an_elastic_body_loses_nothing_and_is_not_asked_for_a_wider_sweep() {
         let relaxation = Relaxation::new(1e9, Vec::new()).unwrap();
         let body = Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.3).unwrap();
         let mut plan = pmma(&[0.01, 0.1, 1.0]);
-        plan.contact.material = Arc::new(body);
+        plan.base.contact.material = Arc::new(body);
         plan.cycle.steps = 32;
-        plan.contact.solver.engine = engine;
-        plan.contact.solver.cells = 32;
+        plan.solver.engine = engine;
+        plan.solver.cells = 32;
         let told = report::terminal::peaks(&plan, &swept(plan.clone()).outcome);
         assert!(told.contains("an elastic body loses nothing"), "{told}");
         for record in &swept(plan).outcome.records {

@@ -140,9 +140,12 @@ fn the_printed_block_is_a_material_block_with_exact_numbers() {
             Tabulated::new(face, pmma().kind(), times, values).unwrap()
         };
         let expected = fit(&table, None).unwrap().material(0.38).unwrap();
-        assert_eq!(plan.contact.material.creep(), expected.creep());
-        assert_eq!(plan.contact.material.relaxation(), expected.relaxation());
-        assert_eq!(plan.contact.material.poisson_ratio(), Some(0.38));
+        assert_eq!(plan.base.contact.material.creep(), expected.creep());
+        assert_eq!(
+            plan.base.contact.material.relaxation(),
+            expected.relaxation()
+        );
+        assert_eq!(plan.base.contact.material.poisson_ratio(), Some(0.38));
         for name in [
             "fit.svg",
             "fit.png",
@@ -349,7 +352,7 @@ fn the_window_and_the_alternatives_of_a_fit_survive_the_resolved_file() {
     write(folder.path(), "sweep.toml", &text);
     let document = Document::read(&folder.path().join("sweep.toml")).unwrap();
     let plan = sweep_file::plan(&document).unwrap();
-    let material = &plan.contact.material;
+    let material = &plan.base.contact.material;
     let (first_s, last_s) = material.measured_window_s().unwrap();
     assert!((first_s - 0.1).abs() < 1e-12 && (last_s - 100.0).abs() < 1e-9);
     assert!(material.alternatives().len() >= 2);
@@ -357,14 +360,17 @@ fn the_window_and_the_alternatives_of_a_fit_survive_the_resolved_file() {
     assert!(resolved.contains("measured = [") && resolved.contains("[[material.alternative]]"));
     let again = sweep_file::plan(&Document::parse("resolved.toml", &resolved).unwrap()).unwrap();
     assert_eq!(
-        again.contact.material.alternatives(),
+        again.base.contact.material.alternatives(),
         material.alternatives()
     );
     assert_eq!(
-        again.contact.material.measured_window_s(),
+        again.base.contact.material.measured_window_s(),
         Some((first_s, last_s))
     );
-    assert_eq!(again.contact.material.relaxation(), material.relaxation());
+    assert_eq!(
+        again.base.contact.material.relaxation(),
+        material.relaxation()
+    );
     assert_eq!(resolved_text(&again), resolved);
 }
 
@@ -722,24 +728,24 @@ fn a_file_of_dynamic_data_becomes_a_material_at_a_temperature_with_replicas() {
     let plan = |sets: &[&str]| dynamic_plan(folder.path(), sets).unwrap();
     let identity = |sets: &[&str]| resolved::hash(&resolved_text(&plan(sets)));
     let own = plan(&[]);
-    assert_eq!(own.contact.material.temperature_k(), Some(293.15));
-    assert_eq!(own.contact.material.replicas().len(), 10);
+    assert_eq!(own.base.contact.material.temperature_k(), Some(293.15));
+    assert_eq!(own.base.contact.material.replicas().len(), 10);
     let text = resolved_text(&own);
     let again = sweep_file::plan(&Document::parse("resolved.toml", &text).unwrap()).unwrap();
     assert_eq!(resolved_text(&again), text);
     // The law of the shift alone, which exports take along, is no part of a sweep.
     assert_eq!(
-        again.contact.material.relaxation(),
-        own.contact.material.relaxation()
+        again.base.contact.material.relaxation(),
+        own.base.contact.material.relaxation()
     );
     assert_eq!(
-        again.contact.material.replicas(),
-        own.contact.material.replicas()
+        again.base.contact.material.replicas(),
+        own.base.contact.material.replicas()
     );
     // Colder by 40 K, two decades and two thirds: by so much slower, and measured at lower frequencies.
-    let cold = plan(&["material.temperature=-20 °C"]).contact.material;
+    let cold = plan(&["material.temperature=-20 °C"]).base.contact.material;
     let (warm_s, cold_s) = (
-        own.contact.material.measured_window_s(),
+        own.base.contact.material.measured_window_s(),
         cold.measured_window_s(),
     );
     let decades = (cold_s.unwrap().0 / warm_s.unwrap().0).log10();

@@ -49,7 +49,7 @@ pub fn identify(plan: &IdentifyPlan, interrupt: &AtomicBool) -> Result<Identifie
     let mut first = None;
     // Far from the solution the factors may overshoot: what was not found is sought again with smaller changes of them. On cells, whose
     // cycles take a second each, that would be many minutes.
-    let attempts = match plan.contact.solver.engine {
+    let attempts = match plan.solver.engine {
         EngineKind::Axisymmetric => PARTS.len(),
         _ => 1,
     };

@@ -108,6 +108,7 @@ impl ApproachZero {
 pub struct IdentifyPlan {
     pub title: String,
     pub contact: ContactPlan<Sought>,
+    pub solver: SolverPlan,
     pub drive: Driven,
     /// How many branches; `None` lets the data choose.
     pub branches: Option<usize>,
@@ -166,10 +167,8 @@ impl IdentifyPlan {
         };
         Self {
             title: String::new(),
-            contact: ContactPlan {
-                solver: Self::solver(indenter.as_ref(), None),
-                ..ContactPlan::new(material, indenter)
-            },
+            solver: Self::solver(indenter.as_ref(), None),
+            contact: ContactPlan::new(material, indenter),
             drive,
             branches: None,
             measurements,

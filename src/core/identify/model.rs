@@ -40,7 +40,7 @@ impl<'a> Model<'a> {
         series: &Relaxation,
     ) -> Result<Option<f64>, IdentifyError> {
         let contact = &self.plan.contact;
-        let has_nothing_finer = match contact.solver.engine {
+        let has_nothing_finer = match self.plan.solver.engine {
             EngineKind::Axisymmetric => self.plan.drive.history().is_some(),
             EngineKind::HalfSpace => contact.indenter.own_cells().is_some(),
         };
@@ -50,8 +50,8 @@ impl<'a> Model<'a> {
         self.corrections.clear();
         let mut finer = self.plan.clone();
         finer.cycle.steps *= 2;
-        finer.contact.solver.springs *= 2;
-        finer.contact.solver.cells *= 2;
+        finer.solver.springs *= 2;
+        finer.solver.cells *= 2;
         let finer = Model::new(&finer, self.interrupt).numbers_where_found(series)?;
         let own = self.numbers_where_found(series)?;
         let ratio = |(fine, own): (Option<f64>, Option<f64>)| {
@@ -75,7 +75,7 @@ impl<'a> Model<'a> {
 
     /// What is known of the error of the cells; `None` on springs.
     pub(super) fn cell_error(&self) -> Option<CellError> {
-        match (self.plan.contact.solver.engine, self.corrections.is_empty()) {
+        match (self.plan.solver.engine, self.corrections.is_empty()) {
             (EngineKind::Axisymmetric, _) => None,
             (EngineKind::HalfSpace, true) => Some(CellError::Unknown),
             (EngineKind::HalfSpace, false) => Some(CellError::Included(self.largest_correction())),
@@ -201,7 +201,7 @@ impl<'a> Model<'a> {
             angular_frequency_rad_per_s: measured.angular_frequency_rad_per_s,
             condition: Condition {
                 drive: measured.drive,
-                ..setup.plan().condition()
+                ..setup.plan().base.clone()
             },
         };
         let mut record = setup.numbers(&case, self.interrupt);

@@ -2,7 +2,8 @@
 
 use crate::identify::{Driven, IdentifyPlan};
 use crate::sweep::plan::resolved::{
-    compressibility_line, counterbody_text, cycle_text, drive_text, opening_text, toml_string,
+    compressibility_line, counterbody_text, cycle_text, drive_text, opening_text, solver_text,
+    toml_string,
 };
 use crate::sweep::plan::scenario::history_text;
 
@@ -30,6 +31,6 @@ pub fn resolved_text(plan: &IdentifyPlan) -> String {
         contact.adhesion,
         toml_string(&plan.data),
         cycle_text(&plan.cycle),
-        contact.solver
+        solver_text(&plan.solver, plan.contact.indenter.as_ref())
     )
 }

@@ -25,7 +25,7 @@ use crate::sweep::plan::axes::GivenBlocks;
 use crate::sweep::plan::body_material::BodyMaterial;
 use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::layer::LayerPlan;
-use crate::sweep::plan::{self, AxisValues, Block, Condition, SolverPlan, Varied};
+use crate::sweep::plan::{self, AxisValues, Block, Condition, Varied};
 
 /// What a block says, and what it says under each condition; under none of them where that is the same.
 #[derive(Clone)]
@@ -114,24 +114,33 @@ impl<'a> Blocks<'a> {
         }
     }
 
-    /// The contact and the drive of the file, and its axes besides the frequency, where there are any. Pressures are told as the loads
+    /// What the file itself says of a case, and its axes besides the frequency, where there are any. Pressures are told as the loads
     /// that they are.
-    pub(super) fn into_plan(
-        self,
-        solver: SolverPlan,
-        sweep: Option<&Axes>,
-    ) -> Option<(
-        ContactPlan<Arc<Material>>,
-        HarmonicDrive,
-        Option<plan::Axes>,
-    )> {
+    pub(super) fn into_plan(self, sweep: Option<&Axes>) -> Option<(Condition, Option<plan::Axes>)> {
         let (material, indenter, drive) = (self.material?, self.indenter?, self.drive?);
         let (layer, attraction) = (self.layer?, self.attraction?);
-        let attracted = |own: &HarmonicDrive, indenter: &Arc<dyn Indenter>| match &attraction {
-            Some(attraction) => attraction.drive(indenter.as_ref(), own),
-            None => Some(*own),
+        let condition = |values, material: &Arc<_>, layer, indenter: &Arc<dyn Indenter>, drive| {
+            Some(Condition {
+                values,
+                drive: match &attraction {
+                    Some(attraction) => attraction.drive(indenter.as_ref(), drive)?,
+                    None => *drive,
+                },
+                contact: ContactPlan {
+                    material: Arc::clone(material),
+                    layer,
+                    indenter: Arc::clone(indenter),
+                    adhesion: attraction.as_ref().map(|attraction| attraction.adhesion),
+                },
+            })
         };
-        let own_drive = attracted(&drive.own, &indenter.own)?;
+        let base = condition(
+            AxisValues::default(),
+            &material.own,
+            layer.own,
+            &indenter.own,
+            &drive.own,
+        )?;
         let is_pressure = |swept: &Swept| {
             let of_drive = swept.varied.is_mean() || swept.varied.is_amplitude();
             self.prescribed == Prescribed::Pressure && of_drive
@@ -145,13 +154,13 @@ impl<'a> Blocks<'a> {
             let mut conditions = Vec::with_capacity(self.conditions.len());
             for (k, values) in self.conditions.iter().enumerate() {
                 let values: Vec<f64> = values.iter().zip(&sweep.swept).map(as_load).collect();
-                conditions.push(Condition {
-                    values: AxisValues::new(&values)?,
-                    material: Arc::clone(material.under(k)),
-                    layer: *layer.under(k),
-                    indenter: Arc::clone(indenter.under(k)),
-                    drive: attracted(drive.under(k), indenter.under(k))?,
-                });
+                conditions.push(condition(
+                    AxisValues::new(&values)?,
+                    material.under(k),
+                    *layer.under(k),
+                    indenter.under(k),
+                    drive.under(k),
+                )?);
             }
             let varied = |swept: &Swept| match is_pressure(swept) {
                 true => Varied {
@@ -171,14 +180,7 @@ impl<'a> Blocks<'a> {
             Some(sweep) => Some(axes(sweep)?),
             None => None,
         };
-        let contact = ContactPlan {
-            material: material.own,
-            layer: layer.own,
-            indenter: indenter.own,
-            adhesion: attraction.map(|attraction| attraction.adhesion),
-            solver,
-        };
-        Some((contact, own_drive, axes))
+        Some((base, axes))
     }
 }
 

@@ -113,7 +113,7 @@ impl<'a> SweepCurves<'a> {
 
     /// The same of a peak.
     pub fn place_of_peak(&self, peak: &Peak) -> Vec<Cell> {
-        let drive = &self.plan.drive;
+        let drive = &self.plan.base.drive;
         let mean = peak.drive_mean.unwrap_or(drive.mean());
         let amplitude = peak.drive_amplitude.unwrap_or(drive.amplitude());
         self.place(peak.varied, [mean, amplitude])

@@ -23,7 +23,7 @@ pub fn figure(curve: &Curve<'_>, asked_rad_per_s: &[f64], units: &Units) -> Draw
     let profiles: Vec<Profile<'_>> = chosen(&results, asked_rad_per_s, LOOPS)
         .into_iter()
         .map(|(record, result)| {
-            let indenter = curve.condition.indenter.as_ref();
+            let indenter = curve.condition.contact.indenter.as_ref();
             (record, WorkLine::of(&result.cycle.surface_loss, indenter))
         })
         .filter(|(_, line)| line.points.iter().any(|(_, density)| density.is_some()))

@@ -35,7 +35,7 @@ pub fn chart(sweep: &SweepCurves<'_>, axes: &Axes, mapped: Mapped<'_>) -> Option
         return None;
     }
     let unit = sweep.units.varied(&varied, low.abs().max(high.abs()));
-    let title = unit.title(&varied, sweep.plan.drive.control());
+    let title = unit.title(&varied, sweep.plan.base.drive.control());
     let x = Axis::log(sweep.units.frequency_title()).range(to_omega * first, to_omega * last);
     let y = axis((low, high), WIDE, title).range(unit.of(low), unit.of(high));
     let value_scale = scale(

@@ -41,7 +41,7 @@ pub struct Equivalent<'a> {
 impl<'a> Equivalent<'a> {
     /// `None` where fewer than two loops have moduli.
     pub fn of(curve: &Curve<'a>) -> Option<Self> {
-        let material = &curve.condition.material;
+        let material = &curve.condition.contact.material;
         let loops = of_loops(curve);
         let first = loops.first()?.record.angular_frequency_rad_per_s;
         let last = loops.last()?.record.angular_frequency_rad_per_s;
@@ -62,7 +62,7 @@ pub fn symbols<P: Into<Option<(f64, f64)>>>(points: impl IntoIterator<Item = P>)
 
 /// The moduli of the loops of a curve, as far as they have any.
 pub fn of_loops<'a>(curve: &Curve<'a>) -> Vec<LoopModulus<'a>> {
-    let material = &curve.condition.material;
+    let material = &curve.condition.contact.material;
     let of_loop = |(record, result): (&'a CaseRecord, &CaseResult)| {
         let omega = record.angular_frequency_rad_per_s;
         Some(LoopModulus {

@@ -11,7 +11,7 @@ use crate::sweep::record::CaseRecord;
 
 /// The figure.
 pub fn figure(sweep: &SweepCurves<'_>, axes: &Axes) -> Drawn {
-    if sweep.plan.drive.control() == Control::Approach {
+    if sweep.plan.base.drive.control() == Control::Approach {
         return Err("no harmonic-2 map: the approach is prescribed and has none");
     }
     let mapped = Mapped {

@@ -26,7 +26,7 @@ pub fn figure(sweep: &SweepCurves<'_>, over: &Axes) -> Drawn {
         return Err("no figure of the error of the moduli: too few loops have moduli");
     }
     let unit = &units.varied(&over.varied(), largest(sweep.values().map(f64::abs)));
-    let label = unit.title(&over.varied(), sweep.plan.drive.control());
+    let label = unit.title(&over.varied(), sweep.plan.base.drive.control());
     let x_axis = |label: String| axis(range(sweep.values()), WIDE, label);
     let series = |difference: fn(&LoopModulus<'_>) -> Option<f64>| {
         let of = rows.len();

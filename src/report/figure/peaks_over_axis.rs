@@ -50,7 +50,7 @@ pub fn figure(sweep: &SweepCurves<'_>, over: &Axes) -> Drawn {
             (factor * peak.energy_loss_j, error)
         }))
         .size(800, 360);
-    let title = unit.title(&over.varied(), sweep.plan.drive.control());
+    let title = unit.title(&over.varied(), sweep.plan.base.drive.control());
     let frequency = Chart::new(x_axis(title), Axis::log(units.frequency_title()))
         .series(series(&|peak| {
             let error = to_omega * peak.angular_frequency_uncertainty_rad_per_s;

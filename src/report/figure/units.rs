@@ -76,7 +76,7 @@ impl Units {
     /// # Errors
     /// [`ReportError::Scale`] where normalised axes are asked for and there is no elastic contact.
     pub fn of_sweep(plan: &SweepPlan) -> Result<Self, ReportError> {
-        let under = || format!("mean {}", plan.drive.control().name());
+        let under = || format!("mean {}", plan.base.drive.control().name());
         let mut units = Self::new(plan.figures.axes, under, || ElasticScale::of_sweep(plan))?;
         units.frequency_unit = plan.figures.frequency_unit;
         Ok(units)

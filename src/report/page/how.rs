@@ -6,7 +6,7 @@ use super::question::{Facts, list};
 use crate::history::TimeRule;
 use crate::report::words::{self, case, nodes_name, range};
 use crate::sweep::plan::contact::ContactPlan;
-use crate::sweep::plan::{EngineKind, SweepPlan};
+use crate::sweep::plan::{EngineKind, SolverPlan, SweepPlan};
 use crate::sweep::record::{CaseRecord, Status};
 use crate::sweep::search::run::Outcome;
 
@@ -27,7 +27,8 @@ pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> Markup {
     );
     let integer = |value: fn(&CaseRecord) -> f64| range(records.iter().map(value), 0);
     let known = |value: fn(&CaseRecord) -> Option<f64>| range(records.iter().filter_map(value), 2);
-    engine(&mut facts, &plan.contact, &integer(|r| r.nodes as f64));
+    let nodes = integer(|r| r.nodes as f64);
+    engine(&mut facts, &plan.solver, &plan.base.contact, &nodes);
     let (method, tolerance) = (plan.cycle.method.name(), plan.cycle.tolerance);
     match plan.cycle.at_cycle {
         Some(number) => facts.add("cycle", format!("number {number} after the hold, as it is")),
@@ -74,8 +75,12 @@ pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> Markup {
 }
 
 /// Adds which engine solved a contact, and on how many nodes: those of a map, or so many.
-pub(super) fn engine<M>(facts: &mut Facts, contact: &ContactPlan<M>, nodes: &str) {
-    let solver = &contact.solver;
+pub(super) fn engine<M>(
+    facts: &mut Facts,
+    solver: &SolverPlan,
+    contact: &ContactPlan<M>,
+    nodes: &str,
+) {
     let engine = match solver.engine {
         EngineKind::Axisymmetric => {
             "axisymmetric: independent springs (method of dimensionality reduction), exact for convex bodies of revolution"

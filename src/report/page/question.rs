@@ -54,13 +54,13 @@ pub(super) fn line(plan: &SweepPlan) -> String {
         _ => "no frequency".to_owned(),
     };
     let material = words::each_of(plan, Block::Material, |_, c| {
-        let name = c.material.name();
+        let name = c.contact.material.name();
         name.unwrap_or("A material of its own").to_owned()
     });
-    let shape = |_: Option<&str>, c: &Condition| format!("a {}", c.indenter.shape());
+    let shape = |_: Option<&str>, c: &Condition| format!("a {}", c.contact.indenter.shape());
     let indenter = words::each_of(plan, Block::Indenter, shape);
-    let layer = caption::layer(plan.contact.layer, &[]);
-    let drive = words::drive_line(&plan.drive, plan);
+    let layer = caption::layer(plan.base.contact.layer, &[]);
+    let drive = words::drive_line(&plan.base.drive, plan);
     let varied = words::varied_line(plan).map_or(String::new(), |line| format!("; {line}"));
     format!("{material}{layer}, under {indenter}; {drive}; {range}{varied}")
 }
@@ -68,24 +68,33 @@ pub(super) fn line(plan: &SweepPlan) -> String {
 /// The section of a sweep.
 pub(super) fn sweep(plan: &SweepPlan) -> Markup {
     let mut drive = Facts::default();
-    drive.add("control", plan.drive.control().name());
-    drive.add("mean ± amplitude", words::drive_line(&plan.drive, plan));
-    if let Some(attraction) = words::adhesion_line(plan.contact.adhesion) {
+    drive.add("control", plan.base.drive.control().name());
+    drive.add(
+        "mean ± amplitude",
+        words::drive_line(&plan.base.drive, plan),
+    );
+    if let Some(attraction) = words::adhesion_line(plan.base.contact.adhesion) {
         drive.add("attraction", attraction);
     }
-    drive.add("phase", plain(plan.drive.phase_rad(), Dimension::Angle, 4));
-    let hold = plain(plan.drive.hold_s(), Dimension::Time, 4);
+    drive.add(
+        "phase",
+        plain(plan.base.drive.phase_rad(), Dimension::Angle, 4),
+    );
+    let hold = plain(plan.base.drive.hold_s(), Dimension::Time, 4);
     drive.add("rest before the oscillation", hold);
     if let Some(line) = words::varied_line(plan) {
         drive.add("other axes", line);
     }
     parts(
         html! {
-            (each_of(plan, Block::Material, |condition| material(&condition.material)))
-            (body(plan.contact.layer))
+            (each_of(plan, Block::Material, |condition| material(&condition.contact.material)))
+            (body(plan.base.contact.layer))
         },
         each_of(plan, Block::Indenter, |condition| {
-            indenter_body(condition.indenter.as_ref(), Some(&condition.material))
+            indenter_body(
+                condition.contact.indenter.as_ref(),
+                Some(&condition.contact.material),
+            )
         }),
         drive.html(),
     )

@@ -327,8 +327,8 @@ fn question(plan: &ScenarioPlan) -> Markup {
 /// How the numbers were obtained.
 fn how(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Markup {
     let mut facts = Facts::default();
-    let nodes = plan.contact.solver.nodes().to_string();
-    how::engine(&mut facts, &plan.contact, &nodes);
+    let nodes = plan.solver.nodes().to_string();
+    how::engine(&mut facts, &plan.solver, &plan.contact, &nodes);
     facts.add("time steps", outcome.rows.len());
     facts.add("contact iterations", outcome.iterations);
     let half_width = plain(outcome.domain_half_width_m, Dimension::Length, 4);

@@ -139,12 +139,12 @@ impl<'a> SweepData<'a> {
             varied: (plan.axes.iter().flat_map(|axes| &axes.over))
                 .map(VariedData::of)
                 .collect(),
-            drive_unit: plan.drive.control().unit(),
-            node_name: match plan.contact.indenter.own_cells() {
+            drive_unit: plan.base.drive.control().unit(),
+            node_name: match plan.base.contact.indenter.own_cells() {
                 Some(_) => "cells along the longer side of the map",
-                None => nodes_name(plan.contact.solver.engine),
+                None => nodes_name(plan.solver.engine),
             },
-            material: MaterialData::over(&plan.contact.material, plan.figures.frequency_unit),
+            material: MaterialData::over(&plan.base.contact.material, plan.figures.frequency_unit),
             table: match plan.is_small() {
                 true => Vec::new(),
                 false => cases_table::shown(plan, outcome),
@@ -212,7 +212,7 @@ fn case(plan: &SweepPlan, record: &CaseRecord, result: &CaseResult, cases: usize
         pressure: PressureData::of(
             &result.cycle.pressures,
             work.along,
-            plan.drive.control(),
+            plan.base.drive.control(),
             &fineness,
         ),
         work: WorkData::of(&result.cycle.surface_loss, &work, &fineness),

@@ -32,7 +32,7 @@ pub(super) struct Solved {
 
 impl Levels<'_> {
     pub fn engine(&self) -> EngineKind {
-        self.setup.plan.contact.solver.engine
+        self.setup.plan.solver.engine
     }
 
     /// Solves at the record's own resolution, and at coarser ones where error bars are wanted.
@@ -172,7 +172,10 @@ impl Levels<'_> {
             EngineKind::HalfSpace => {
                 let cell_m = 2.0 * record.domain_half_width_m / record.nodes as f64;
                 let condition = contact.condition;
-                let (indenter, on_layer) = (condition.indenter.as_ref(), condition.layer.is_some());
+                let (indenter, on_layer) = (
+                    condition.contact.indenter.as_ref(),
+                    condition.contact.layer.is_some(),
+                );
                 let radius_m = result.contact_radius_m.maximum;
                 let edge = Edge::of(indenter, on_layer, radius_m, cell_m);
                 (distance + of_instants, InNodes::cells(cell_m, edge))
@@ -187,7 +190,7 @@ impl Levels<'_> {
         );
         let drive = &contact.condition.drive;
         let bars = lift_off::widened(bars, (result, record.steps), drive, of_stabilised)?;
-        let indenter = contact.condition.indenter.as_ref();
+        let indenter = contact.condition.contact.indenter.as_ref();
         let relaxation = contact.solid.relaxation.as_ref();
         let layer = relaxation.and_then(|relaxation| EdgeLayer::new(indenter, relaxation));
         Some(match layer {
@@ -280,7 +283,7 @@ impl Levels<'_> {
         );
         engine.tolerate(needed);
         if self.engine() == EngineKind::HalfSpace
-            && self.setup.plan.contact.solver.tolerance.is_none()
+            && self.setup.plan.solver.tolerance.is_none()
             && let Some(tighter) = instant_tolerance::tighter(needed)
         {
             match contact.searching_alone().in_steps(engine, steps) {

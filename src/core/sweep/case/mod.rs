@@ -131,15 +131,15 @@ impl Setup {
     /// indenter.
     pub fn new(mut plan: SweepPlan) -> Result<Self, SetupError> {
         plan.check()?;
-        plan.contact = plan.contact.on_own_cells();
+        plan.solver = (plan.solver).on_own_cells(plan.base.contact.indenter.as_ref());
         let setup = Self {
             solids: Mutex::default(),
             engines: Mutex::default(),
             interrupt: None,
             plan,
         };
-        for condition in setup.plan.conditions().iter() {
-            setup.engines(condition, setup.plan.contact.solver.nodes())?;
+        for condition in setup.plan.conditions() {
+            setup.engines(condition, setup.plan.solver.nodes())?;
         }
         Ok(setup)
     }
@@ -161,13 +161,13 @@ impl Setup {
     /// # Errors
     /// As [`Setup::new`], of a condition that is none of the plan.
     pub(in crate::sweep) fn solid(&self, condition: &Condition) -> Result<Arc<Solid>, SetupError> {
-        let key = Arc::as_ptr(&condition.material).addr();
+        let key = Arc::as_ptr(&condition.contact.material).addr();
         let mut solids = whole(&self.solids);
         if let Some((_, solid)) = solids.get(&key) {
             return Ok(Arc::clone(solid));
         }
-        let solid = Arc::new(Solid::new(&condition.material)?);
-        let kept = (Arc::clone(&condition.material), Arc::clone(&solid));
+        let solid = Arc::new(Solid::new(&condition.contact.material)?);
+        let kept = (Arc::clone(&condition.contact.material), Arc::clone(&solid));
         solids.insert(key, kept);
         Ok(solid)
     }
@@ -183,13 +183,13 @@ impl Setup {
     ) -> Result<Arc<EngineBuilder>, SetupError> {
         let relaxed_per_pa = self.solid(condition)?.relaxed_per_pa;
         let key = EngineKey {
-            indenter: Arc::as_ptr(&condition.indenter).addr(),
+            indenter: Arc::as_ptr(&condition.contact.indenter).addr(),
             nodes,
             // Zero has a sign, of which a hash knows.
             largest: condition.drive.maximum() + condition.drive.pull_off_n() + 0.0,
             relaxed_per_pa,
-            poisson_ratio: condition.material.poisson_ratio(),
-            layer: condition.layer,
+            poisson_ratio: condition.contact.material.poisson_ratio(),
+            layer: condition.contact.layer,
         };
         let mut engines = whole(&self.engines);
         if let Some(builder) = engines.get(&key) {
@@ -210,7 +210,7 @@ impl Setup {
     ) -> f64 {
         let omega = angular_frequency_rad_per_s;
         let needed = || instant_tolerance::of_a_cycle(compliance, drive, omega, cycle_tolerance);
-        self.plan.contact.solver.tolerance.unwrap_or_else(needed)
+        self.plan.solver.tolerance.unwrap_or_else(needed)
     }
 
     fn new_engines(
@@ -220,9 +220,17 @@ impl Setup {
         nodes: usize,
     ) -> Result<EngineBuilder, EngineError> {
         let largest = LargestContact::of(&condition.drive, relaxed_per_pa);
-        let solver = self.plan.contact.solver.with_nodes(nodes);
-        let layer = engine::layer(condition.layer, condition.material.poisson_ratio())?;
-        EngineBuilder::on(layer, Arc::clone(&condition.indenter), solver, largest)
+        let solver = self.plan.solver.with_nodes(nodes);
+        let layer = engine::layer(
+            condition.contact.layer,
+            condition.contact.material.poisson_ratio(),
+        )?;
+        EngineBuilder::on(
+            layer,
+            Arc::clone(&condition.contact.indenter),
+            solver,
+            largest,
+        )
     }
 
     /// Engines for a case: those of its drive, with springs laid out for its cycle.
@@ -234,7 +242,7 @@ impl Setup {
         let drive = &contact.condition.drive;
         // On the way to the stabilised cycle the contact may be smaller than it ever is in that.
         let is_transient = contact.cycle.at_cycle.is_some();
-        if is_transient || self.plan.contact.solver.engine == EngineKind::HalfSpace {
+        if is_transient || self.plan.solver.engine == EngineKind::HalfSpace {
             return self.engines(contact.condition, nodes);
         }
         let relaxed = contact.solid.relaxed_per_pa;
@@ -298,7 +306,7 @@ impl Setup {
         interrupt: &AtomicBool,
     ) -> Option<CaseRecord> {
         let mut cycle = self.plan.cycle;
-        let mut nodes = self.plan.contact.solver.nodes();
+        let mut nodes = self.plan.solver.nodes();
         if let Some(accuracy) = cycle.accuracy {
             cycle.tolerance = cycle.tolerance.min(0.1 * accuracy);
         }
@@ -344,7 +352,8 @@ impl Setup {
             }
         }
         record.refuse_what_is_not_finite();
-        if let (Some(adhesion), Some(result)) = (&self.plan.contact.adhesion, &mut record.result)
+        if let (Some(adhesion), Some(result)) =
+            (&self.plan.base.contact.adhesion, &mut record.result)
             && let Ok(solid) = self.solid(&case.condition)
         {
             let omega = case.angular_frequency_rad_per_s;
@@ -352,7 +361,7 @@ impl Setup {
             let pull_off_n = case.condition.drive.pull_off_n();
             result.tabor_parameter = Some(adhesion.tabor_parameter(pull_off_n, modulus_pa));
         }
-        let solver = &self.plan.contact.solver;
+        let solver = &self.plan.solver;
         record.warnings = outside_model::warnings(solver, &case.condition, &record, wants_bars);
         if let (Some(result), false) = (&mut record.result, self.plan.is_small()) {
             result.cycle.round_profiles();
@@ -374,7 +383,7 @@ impl Setup {
             compliance: &solid.compliance,
             condition: &case.condition,
             angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
-            time_rule: self.plan.contact.solver.time_rule,
+            time_rule: self.plan.solver.time_rule,
             cycle,
             interrupt,
             checkpoints,

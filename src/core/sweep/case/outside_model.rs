@@ -15,14 +15,15 @@ pub(in crate::sweep) fn warnings(
     error_bars_wanted: bool,
 ) -> Vec<Warning> {
     let omega = record.angular_frequency_rad_per_s;
-    let window = condition.material.measured_window_s();
+    let window = condition.contact.material.measured_window_s();
     let mut warnings: Vec<Warning> = of_frequency(window, omega).into_iter().collect();
-    warnings.extend(Warning::of_temperature(&condition.material));
+    warnings.extend(Warning::of_temperature(&condition.contact.material));
     let Some(result) = &record.result else {
         return warnings;
     };
-    let slope = slope_of_case(condition.indenter.as_ref(), result);
+    let slope = slope_of_case(condition.contact.indenter.as_ref(), result);
     let modulus_pa = condition
+        .contact
         .material
         .longitudinal_complex_modulus(omega)
         .norm();
@@ -30,10 +31,13 @@ pub(in crate::sweep) fn warnings(
     warnings.extend(of_slope(slope, radius_m, modulus_pa));
     warnings.extend((result.tabor_parameter).and_then(Warning::of_tabor_parameter));
     warnings.extend(Warning::of_depth(
-        condition.layer,
+        condition.contact.layer,
         result.approach_m.maximum,
     ));
-    warnings.extend(Warning::of_cells(condition.indenter.as_ref(), radius_m));
+    warnings.extend(Warning::of_cells(
+        condition.contact.indenter.as_ref(),
+        radius_m,
+    ));
     warnings.extend(Warning::of_loss(result));
     let steps_in_contact = result.contact_duty.steps(record.steps);
     let lifts_off = result.contact_duty != ContactDuty::WHOLE;
@@ -46,7 +50,7 @@ pub(in crate::sweep) fn warnings(
     warnings.extend(imbalance.and_then(|part| Warning::of_energy_imbalance(part, bar)));
     if error_bars_wanted && result.errors.is_none() {
         let on_cells = solver.engine == EngineKind::HalfSpace;
-        let because = match on_cells && condition.indenter.own_cells().is_some() {
+        let because = match on_cells && condition.contact.indenter.own_cells().is_some() {
             true => NoErrorBars::OwnCells,
             false if lifts_off && steps_in_contact < FEWEST_STEPS => NoErrorBars::ShortContact,
             false => NoErrorBars::NoCoarserResult,

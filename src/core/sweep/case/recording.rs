@@ -156,7 +156,7 @@ impl Recording {
         let count = radii_m.len().saturating_sub(1).max(1);
         let mean_radius_m = radii_m.iter().skip(1).sum::<f64>() / count as f64;
         let radius_m = self.tangent_radius.as_ref()?.mean_m(mean_radius_m)?;
-        let material = &contact.condition.material;
+        let material = &contact.condition.contact.material;
         let nu = material.poisson_ratio().unwrap_or(0.0);
         let moduli_pa = analysis.equivalent_moduli_pa(radius_m, nu)?;
         Some(material.of_loop(moduli_pa, contact.angular_frequency_rad_per_s))

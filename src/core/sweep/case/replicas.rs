@@ -70,8 +70,8 @@ impl Levels<'_> {
     /// Steps and nodes on which the replicas are solved. A map has its own cells and no others.
     fn coarse_for_replicas(&self) -> Resolution {
         let plan = self.setup.plan();
-        let solver = &plan.contact.solver;
-        let nodes = match (solver.engine, plan.contact.indenter.own_cells()) {
+        let solver = &plan.solver;
+        let nodes = match (solver.engine, plan.base.contact.indenter.own_cells()) {
             (EngineKind::Axisymmetric, _) => 48,
             (EngineKind::HalfSpace, None) => 32,
             (EngineKind::HalfSpace, Some(_)) => usize::MAX,

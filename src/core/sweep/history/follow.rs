@@ -113,10 +113,7 @@ impl Simulation {
             layout: engines.layout(),
             wider,
         };
-        let (rule, steps) = (
-            self.plan.contact.solver.time_rule,
-            level.schedule.moments.len(),
-        );
+        let (rule, steps) = (self.plan.solver.time_rule, level.schedule.moments.len());
         let ended = match &self.compliance {
             Compliance::Series(creep) => {
                 let march = March::new(engine.as_mut(), creep.clone(), rule);

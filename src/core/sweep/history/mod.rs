@@ -131,7 +131,7 @@ impl Simulation {
     /// As [`Simulation::new`].
     pub fn of_fineness(mut plan: ScenarioPlan, fineness: Fineness) -> Result<Self, SetupError> {
         plan.check()?;
-        plan.contact = plan.contact.on_own_cells();
+        plan.solver = (plan.solver).on_own_cells(plan.contact.indenter.as_ref());
         let compliance = plan.contact.material.compliance()?;
         let steps = match plan.step_s {
             Some(step_s) => Steps::Given { step_s },
@@ -151,13 +151,13 @@ impl Simulation {
         let requested_s = [&output.profiles_at_s[..], &output.fields_at_s[..]].concat();
         let level = |fineness, nodes| -> Result<Level, SetupError> {
             let schedule = Schedule::of_fineness(&plan.drive, steps, &requested_s, fineness)?;
-            let solver = plan.contact.solver.with_nodes(nodes);
+            let solver = plan.solver.with_nodes(nodes);
             Ok(Level {
                 schedule,
                 engines: EngineBuilder::on(layer, plan.contact.indenter.clone(), solver, largest)?,
             })
         };
-        let full = level(fineness, plan.contact.solver.nodes())?;
+        let full = level(fineness, plan.solver.nodes())?;
         let (moments, nodes) = (full.schedule.moments.len(), full.engines.nodes());
         if let Compliance::Samples(_) = compliance {
             check_direct_sum(moments, nodes)?;
@@ -371,7 +371,7 @@ fn error_plan(plan: &ScenarioPlan, compliance: &Compliance, full: &Level) -> Res
     if full.engines.has_cells_of_its_own() {
         return Err("the cells are those of the map, of which there are no fewer".to_owned());
     }
-    let solver = &plan.contact.solver;
+    let solver = &plan.solver;
     let nodes = errors::coarser_nodes(solver)
         .ok_or_else(|| "there are too few nodes to leave any out".to_owned())?;
     let can_be_coarser = full.schedule.can_be_coarser;

@@ -316,8 +316,8 @@ impl Axes {
         let under = |value| {
             Ok(Condition {
                 values: AxisValues::one(value),
-                drive: varied.drive(&plan.drive, value)?,
-                ..plan.condition()
+                drive: varied.drive(&plan.base.drive, value)?,
+                ..plan.base.clone()
             })
         };
         Ok(Self {

@@ -4,6 +4,7 @@
 use std::ops::{Range, RangeInclusive};
 
 use crate::contact::half_space::layer::YieldingBase;
+use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::scenario::ScenarioPlan;
 use crate::sweep::plan::{Condition, CyclePlan, EngineKind, Method, SolverPlan, SweepPlan};
 
@@ -103,11 +104,11 @@ impl SweepPlan {
         if cases > Self::MAX_CASES {
             return Err(PlanError::Cases { cases });
         }
-        for layer in self.conditions().iter().filter_map(|c| c.layer) {
-            layer.check()?;
-        }
+        let mut contacts = self.conditions().iter().map(|c| &c.contact);
+        contacts.try_for_each(ContactPlan::check)?;
+        self.base.contact.check()?;
         self.cycle.check()?;
-        self.contact.check()
+        self.solver.check()
     }
 }
 
@@ -158,7 +159,8 @@ impl ScenarioPlan {
     pub fn check(&self) -> Result<(), PlanError> {
         let cells = self.output.field_cells;
         check_count("cells of a field", cells, &SolverPlan::CELLS)?;
-        self.contact.check()
+        self.contact.check()?;
+        self.solver.check()
     }
 }
 
@@ -251,10 +253,10 @@ mod tests {
         assert!(refused(|plan| plan.cycle.max_cycles = 0).is_some());
         assert!(refused(|plan| plan.cycle.tolerance = f64::NAN).is_some());
         assert!(refused(|plan| plan.cycle.accuracy = Some(1.0)).is_some());
-        assert!(refused(|plan| plan.contact.solver.springs = 9).is_some());
-        assert!(refused(|plan| plan.contact.solver.tolerance = Some(0.0)).is_some());
+        assert!(refused(|plan| plan.solver.springs = 9).is_some());
+        assert!(refused(|plan| plan.solver.tolerance = Some(0.0)).is_some());
         // Cells of an engine that has none say nothing.
-        assert_eq!(refused(|plan| plan.contact.solver.cells = 0), None);
+        assert_eq!(refused(|plan| plan.solver.cells = 0), None);
         let axis = |amplitudes: &[f64]| {
             let varied = Varied::amplitude(Control::Load);
             refused(|plan| {

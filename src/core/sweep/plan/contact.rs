@@ -1,4 +1,4 @@
-//! What presses on what, and how that is solved: what the plans of a sweep, of a history and of an identification have in common.
+//! What presses on what: what the plans of a sweep, of a history and of an identification have in common.
 
 use std::sync::Arc;
 
@@ -18,16 +18,14 @@ pub struct ContactPlan<M> {
     pub indenter: Arc<dyn Indenter>,
     /// Attraction outside the contact, where there is any; the drive then knows the pull-off load.
     pub adhesion: Option<AdhesionPlan>,
-    pub solver: SolverPlan,
 }
 
 impl<M> ContactPlan<M> {
-    /// The contact with a half-space, without attraction, on the engine that this indenter asks for.
+    /// The contact with a half-space, without attraction.
     pub fn new(material: M, indenter: Arc<dyn Indenter>) -> Self {
         Self {
             material,
             layer: None,
-            solver: SolverPlan::of(indenter.as_ref(), None),
             indenter,
             adhesion: None,
         }
@@ -40,21 +38,17 @@ impl<M> ContactPlan<M> {
             layer: self.layer,
             indenter: Arc::clone(&self.indenter),
             adhesion: self.adhesion,
-            solver: self.solver,
         }
     }
 
-    /// The same with the cells that the indenter brings, where it brings any.
-    #[must_use]
-    pub(in crate::sweep) fn on_own_cells(mut self) -> Self {
-        self.solver = self.solver.on_own_cells(self.indenter.as_ref());
-        self
+    /// The engine that suits it, everything else of the solver at its default.
+    pub fn default_solver(&self) -> SolverPlan {
+        SolverPlan::of(self.indenter.as_ref(), self.layer)
     }
 
     /// Checks every value that is not checked where it is made.
     pub(in crate::sweep) fn check(&self) -> Result<(), PlanError> {
-        self.layer.map_or(Ok(()), |layer| layer.check())?;
-        self.solver.check()
+        self.layer.map_or(Ok(()), |layer| layer.check())
     }
 
     /// The blocks of a resolved file, but for the material's, where this is the one of what the indenter is made of.
@@ -65,13 +59,11 @@ impl<M> ContactPlan<M> {
             layer,
             indenter,
             adhesion,
-            solver,
         } = self;
         ContactBlocks {
             layer: layer.map_or(String::new(), |layer| layer.text()),
             indenter: resolved::indenter_text(indenter.as_ref(), counterbody),
             adhesion: adhesion.map_or(String::new(), |adhesion| adhesion.text()),
-            solver: resolved::solver_text(solver, indenter.as_ref()),
         }
     }
 }
@@ -81,5 +73,4 @@ pub(crate) struct ContactBlocks {
     pub(crate) layer: String,
     pub(crate) indenter: String,
     pub(crate) adhesion: String,
-    pub(crate) solver: String,
 }

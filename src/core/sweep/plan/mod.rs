@@ -13,7 +13,6 @@ pub mod scenario;
 
 pub use axes::{Axes, AxisValues, Block, Varied};
 
-use std::borrow::Cow;
 use std::sync::Arc;
 
 use crate::drive::HarmonicDrive;
@@ -31,10 +30,11 @@ pub const SMALL: usize = 200;
 #[derive(Debug, Clone)]
 pub struct SweepPlan {
     pub title: String,
-    pub contact: ContactPlan<Arc<Material>>,
-    pub drive: HarmonicDrive,
+    /// The contact and the drive as they are given. Where axes vary them, this is what their conditions have in common.
+    pub base: Condition,
     /// Other axes than the frequency, where there are any: every frequency is then solved under each of their conditions.
     pub axes: Option<Axes>,
+    pub solver: SolverPlan,
     /// Ascending, in rad/s.
     pub angular_frequencies_rad_per_s: Vec<f64>,
     /// Whether frequencies are added where these do not resolve the curve of the loss.
@@ -47,11 +47,9 @@ pub struct SweepPlan {
 /// What all cases of a curve over frequency have in common.
 #[derive(Debug, Clone)]
 pub struct Condition {
-    /// The varied numbers.
+    /// The varied numbers; none in a sweep over frequency alone.
     pub values: AxisValues,
-    pub material: Arc<Material>,
-    pub layer: Option<LayerPlan>,
-    pub indenter: Arc<dyn Indenter>,
+    pub contact: ContactPlan<Arc<Material>>,
     pub drive: HarmonicDrive,
 }
 
@@ -74,8 +72,12 @@ impl SweepPlan {
     pub fn of(contact: ContactPlan<Arc<Material>>, drive: HarmonicDrive) -> Self {
         Self {
             title: String::new(),
-            contact,
-            drive,
+            solver: contact.default_solver(),
+            base: Condition {
+                values: AxisValues::default(),
+                contact,
+                drive,
+            },
             axes: None,
             angular_frequencies_rad_per_s: Vec::new(),
             refine: false,
@@ -84,52 +86,37 @@ impl SweepPlan {
         }
     }
 
-    /// The only condition of a sweep over frequency alone.
-    pub fn condition(&self) -> Condition {
-        Condition {
-            values: AxisValues::default(),
-            material: Arc::clone(&self.contact.material),
-            layer: self.contact.layer,
-            indenter: Arc::clone(&self.contact.indenter),
-            drive: self.drive,
-        }
-    }
-
     /// The conditions: one, but for a sweep with other axes than the frequency.
-    pub fn conditions(&self) -> Cow<'_, [Condition]> {
-        match &self.axes {
-            Some(axes) => Cow::Borrowed(&axes.conditions),
-            None => Cow::Owned(vec![self.condition()]),
-        }
+    pub fn conditions(&self) -> &[Condition] {
+        let of_axes = self.axes.as_ref().map(|axes| &axes.conditions[..]);
+        of_axes.unwrap_or(std::slice::from_ref(&self.base))
     }
 
     /// The blocks of a list, each by its name and in the first condition that has it; without a list what the plan has itself.
-    pub fn each_of(&self, block: Block) -> Vec<(Option<&str>, Condition)> {
+    pub fn each_of(&self, block: Block) -> Vec<(Option<&str>, &Condition)> {
         let listed = (self.axes.as_ref()).and_then(|axes| Some((axes, axes.whole(block)?)));
         let Some((axes, (axis, varied))) = listed else {
-            return vec![(None, self.condition())];
+            return vec![(None, &self.base)];
         };
         let names = varied.names.iter().enumerate();
         let first = names.filter_map(|(place, name)| {
             let mut conditions = axes.conditions.iter();
             let first = conditions.find(|c| c.values.get(axis) == Some(place as f64));
-            Some((Some(name.as_str()), first?.clone()))
+            Some((Some(name.as_str()), first?))
         });
         first.collect()
     }
 
     /// The indenter under the condition of these values.
     pub fn indenter_under(&self, values: &AxisValues) -> &dyn Indenter {
-        let conditions = self.axes.iter().flat_map(|axes| &axes.conditions);
-        let mut of_values = conditions.filter(|condition| condition.values == *values);
-        let condition = of_values.next();
-        condition.map_or(&*self.contact.indenter, |condition| &*condition.indenter)
+        let mut conditions = self.conditions().iter();
+        let condition = conditions.find(|condition| condition.values == *values);
+        &*condition.unwrap_or(&self.base).contact.indenter
     }
 
     /// How many cases there are.
     pub fn count(&self) -> usize {
-        let conditions = self.axes.as_ref().map_or(1, |axes| axes.conditions.len());
-        conditions * self.angular_frequencies_rad_per_s.len()
+        self.conditions().len() * self.angular_frequencies_rad_per_s.len()
     }
 
     /// Whether every case has tables of its own, and the cycles of all fit in the memory.
@@ -140,7 +127,7 @@ impl SweepPlan {
     /// Every case, in order.
     pub fn cases(&self) -> Vec<Case> {
         let mut cases = Vec::with_capacity(self.count());
-        for condition in self.conditions().iter() {
+        for condition in self.conditions() {
             for angular_frequency_rad_per_s in &self.angular_frequencies_rad_per_s {
                 cases.push(Case {
                     index: cases.len(),
@@ -313,7 +300,7 @@ pub(in crate::sweep) mod tests {
     pub(in crate::sweep) fn condition() -> Condition {
         let pmma = library::find("pmma").unwrap().material().unwrap();
         let drive = HarmonicDrive::new(Control::Load, 10.0, 5.0, 0.0, 0.0).unwrap();
-        SweepPlan::new(pmma, Arc::new(Sphere::new(0.01).unwrap()), drive).condition()
+        SweepPlan::new(pmma, Arc::new(Sphere::new(0.01).unwrap()), drive).base
     }
 
     #[test]

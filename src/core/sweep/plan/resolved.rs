@@ -19,15 +19,16 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
     // By name, so that what is added to a plan and not written here, and so not hashed, does not compile.
     let SweepPlan {
         title,
-        contact,
-        drive,
+        base,
         axes,
+        solver,
         angular_frequencies_rad_per_s,
         refine,
         cycle,
         figures,
     } = plan;
-    let axes = axes.as_ref();
+    let (contact, axes) = (&base.contact, axes.as_ref());
+    let solver = solver_text(solver, contact.indenter.as_ref());
     let given = axes.map(|axes| &axes.given_blocks);
     let is_listed = |block| axes.is_some_and(|axes| axes.whole(block).is_some());
     let mut blocks = match given.and_then(|given| given.material.as_deref()) {
@@ -54,14 +55,14 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
     let listed = listed.map(|(axis, varied)| listed_text(plan, axis, varied));
     [
         opening_text(title, &blocks),
-        drive_text(drive),
+        drive_text(&base.drive),
         format!("\n{}\n[sweep]\n", contact.adhesion),
         axes.map(numbers_text).unwrap_or_default(),
         entry("refine", refine.then(|| "true".to_owned())),
         format!("angular_frequency = [\n{frequencies}]\n\n"),
         listed.collect(),
         cycle_text(cycle),
-        format!("\n{}", contact.solver),
+        format!("\n{}", solver),
         figures.text(),
     ]
     .concat()
@@ -144,7 +145,7 @@ fn material_of<'a>(
     axes: Option<&Axes>,
 ) -> String {
     match axes.is_some_and(|axes| axes.over.iter().any(Varied::is_temperature)) {
-        true => text_over_temperatures(conditions.map(|condition| &*condition.material)),
+        true => text_over_temperatures(conditions.map(|condition| &*condition.contact.material)),
         false => material_text(own),
     }
 }
@@ -162,12 +163,12 @@ fn listed_text(plan: &SweepPlan, axis: usize, varied: &Varied) -> String {
         };
         let (block, name) = match varied.block {
             Block::Indenter => {
-                let counterbody = first.material.counterbody().map(counterbody_text);
-                let block = indenter_text(first.indenter.as_ref(), counterbody);
+                let counterbody = first.contact.material.counterbody().map(counterbody_text);
+                let block = indenter_text(first.contact.indenter.as_ref(), counterbody);
                 (block, Some(toml_string(name)))
             }
             _ => (
-                material_of(&first.material, under(), plan.axes.as_ref()),
+                material_of(&first.contact.material, under(), plan.axes.as_ref()),
                 None,
             ),
         };

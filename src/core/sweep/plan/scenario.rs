@@ -6,10 +6,10 @@ use crate::drive::{Control, Segment, SegmentedDrive};
 use crate::indenter::Indenter;
 use crate::quantity::Dimension;
 use crate::sweep::figures::figure_plan::FigurePlan;
-use crate::sweep::plan::EngineKind;
 use crate::sweep::plan::body_material::BodyMaterial;
 use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::resolved::{self, entry, numbers, quoted};
+use crate::sweep::plan::{EngineKind, SolverPlan};
 
 /// Everything a simulation needs to know. Two equal plans give equal results, bit for bit.
 #[derive(Debug, Clone)]
@@ -17,6 +17,7 @@ pub struct ScenarioPlan {
     pub title: String,
     pub contact: ContactPlan<BodyMaterial>,
     pub drive: SegmentedDrive,
+    pub solver: SolverPlan,
     /// Time step (s); `None`: chosen from drive and material.
     pub step_s: Option<f64>,
     pub output: OutputPlan,
@@ -38,6 +39,7 @@ impl ScenarioPlan {
     pub fn of(contact: ContactPlan<BodyMaterial>, drive: SegmentedDrive) -> Self {
         Self {
             title: String::new(),
+            solver: contact.default_solver(),
             contact,
             drive,
             step_s: None,
@@ -83,6 +85,7 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
         title,
         contact,
         drive,
+        solver,
         step_s,
         output,
         figures,
@@ -93,7 +96,8 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
         field_cells,
         error_bars,
     } = output;
-    let (material, engine) = (&contact.material, contact.solver.engine);
+    let material = &contact.material;
+    let solver_text = resolved::solver_text(solver, contact.indenter.as_ref());
     let contact = contact.blocks(material.counterbody().map(resolved::counterbody_text));
     let blocks = material.text() + &contact.layer + &contact.indenter;
     let step =
@@ -105,7 +109,7 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
             .collect();
         format!("[{}]", times.join(", "))
     };
-    let cells = (engine == EngineKind::Axisymmetric).then(|| field_cells.to_string());
+    let cells = (solver.engine == EngineKind::Axisymmetric).then(|| field_cells.to_string());
     [
         resolved::opening_text(title, &blocks),
         history_text(drive),
@@ -117,7 +121,7 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
             times(fields_at_s),
             entry("field_cells", cells)
         ),
-        contact.solver,
+        solver_text,
         figures.text(),
     ]
     .concat()

@@ -54,12 +54,12 @@ impl ElasticScale {
         if axes.any(Varied::is_whole) {
             return Err(NoScale::Several);
         }
-        let contact = &plan.contact;
+        let contact = &plan.base.contact;
         Self::new(
             contact,
             &contact.material,
-            plan.drive.control(),
-            plan.drive.mean(),
+            plan.base.drive.control(),
+            plan.base.drive.mean(),
         )
     }
 

@@ -93,7 +93,7 @@ impl Sweep {
     /// # Errors
     /// [`SetupError`]: an amplitude that the drive cannot have, none, or amplitudes that do not ascend.
     pub fn amplitudes(self, amplitudes: impl IntoIterator<Item = f64>) -> Result<Self, SetupError> {
-        let varied = Varied::amplitude(self.plan.drive.control());
+        let varied = Varied::amplitude(self.plan.base.drive.control());
         self.varied(varied, amplitudes)
     }
 
@@ -102,7 +102,7 @@ impl Sweep {
     /// # Errors
     /// As [`Self::amplitudes`].
     pub fn means(self, means: impl IntoIterator<Item = f64>) -> Result<Self, SetupError> {
-        let varied = Varied::mean(self.plan.drive.control());
+        let varied = Varied::mean(self.plan.base.drive.control());
         self.varied(varied, means)
     }
 
@@ -137,13 +137,13 @@ impl Sweep {
             work_j_per_m2,
             equilibrium_distance_m: AdhesionPlan::EQUILIBRIUM_DISTANCE_M,
         };
-        let pull_off_n = adhesion.pull_off_n(self.plan.contact.indenter.as_ref());
-        let is_load = self.plan.drive.control() == Control::Load;
+        let pull_off_n = adhesion.pull_off_n(self.plan.base.contact.indenter.as_ref());
+        let is_load = self.plan.base.drive.control() == Control::Load;
         let pull_off_n = pull_off_n.filter(|_| is_load);
         let pull_off_n = pull_off_n.ok_or(PlanError::AdhesionOfOther)?;
-        let drive = self.plan.drive.attracted_by(pull_off_n)?;
+        let drive = self.plan.base.drive.attracted_by(pull_off_n)?;
         Ok(self.with(|plan| {
-            (plan.drive, plan.contact.adhesion) = (drive, Some(adhesion));
+            (plan.base.drive, plan.base.contact.adhesion) = (drive, Some(adhesion));
         })?)
     }
 
@@ -245,14 +245,14 @@ impl Sweep {
         let case = Case {
             index: 0,
             angular_frequency_rad_per_s: std::f64::consts::TAU * frequency_hz,
-            condition: setup.plan().condition(),
+            condition: setup.plan().base.clone(),
         };
         setup.run(&case, &interrupt).ok_or(SweepError::Interrupted)
     }
 
     fn on(self, engine: EngineKind, nodes: usize) -> Result<Self, PlanError> {
         self.with(|plan| {
-            let solver = &mut plan.contact.solver;
+            let solver = &mut plan.solver;
             *solver = SolverPlan { engine, ..*solver }.with_nodes(nodes);
         })
     }

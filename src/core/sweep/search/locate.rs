@@ -37,7 +37,7 @@ impl Search<'_> {
     pub fn locate_peaks(&self, outcome: &mut Outcome) -> Result<bool, StoreError> {
         let plan = self.setup.plan();
         let conditions = plan.conditions();
-        let curves = by_condition(&outcome.records, &conditions);
+        let curves = by_condition(&outcome.records, conditions);
         let brackets: Vec<(Bracket, &[CaseRecord])> = curves
             .flat_map(|(condition, of_curve)| {
                 let brackets = Bracket::of_curve(of_curve, condition).into_iter();

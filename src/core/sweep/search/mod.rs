@@ -84,7 +84,7 @@ impl<'a> Search<'a> {
         if plan.refine && !interrupted {
             interrupted = self.refine(&mut records)?;
         }
-        sort(&mut records, &plan.conditions());
+        sort(&mut records, plan.conditions());
         let mut outcome = Outcome {
             interrupted,
             records,
@@ -110,8 +110,8 @@ impl<'a> Search<'a> {
         let conditions = self.setup.plan().conditions();
         for _ in 0..REFINEMENTS {
             let mut added = Vec::new();
-            sort(records, &conditions);
-            for (condition, of_curve) in by_condition(records, &conditions) {
+            sort(records, conditions);
+            for (condition, of_curve) in by_condition(records, conditions) {
                 for omega in refine::candidates(&curve_of(of_curve)) {
                     added.push(Case {
                         index: records.len() + added.len(),

@@ -175,13 +175,13 @@ struct Level {
 
 /// The levels of a case: its own resolution, and coarser ones for the error bars, each started from the one before.
 fn levels(plan: &SweepPlan, cycles: f64) -> Vec<Level> {
-    let (nodes, steps) = (plan.contact.solver.nodes(), plan.cycle.steps);
+    let (nodes, steps) = (plan.solver.nodes(), plan.cycle.steps);
     let level = |coarser_nodes, coarser_steps, cycles| Level {
         nodes: nodes / coarser_nodes,
         steps: steps / coarser_steps,
         cycles,
     };
-    let has_bars = plan.cycle.error_bars && plan.contact.indenter.own_cells().is_none();
+    let has_bars = plan.cycle.error_bars && plan.base.contact.indenter.own_cells().is_none();
     if !has_bars && plan.cycle.accuracy.is_none() {
         return vec![level(1, 1, cycles)];
     }
@@ -190,7 +190,7 @@ fn levels(plan: &SweepPlan, cycles: f64) -> Vec<Level> {
         Method::Direct => 0.5 * cycles,
         Method::March => cycles,
     };
-    let on_fewest_steps = match plan.contact.solver.engine {
+    let on_fewest_steps = match plan.solver.engine {
         EngineKind::Axisymmetric => 1,
         EngineKind::HalfSpace => 2,
     };
@@ -205,8 +205,8 @@ fn levels(plan: &SweepPlan, cycles: f64) -> Vec<Level> {
 
 /// Time of a step on so many nodes, relative to one on the full number.
 fn relative_step(plan: &SweepPlan, nodes: usize) -> f64 {
-    let ratio = nodes as f64 / plan.contact.solver.nodes() as f64;
-    match plan.contact.solver.engine {
+    let ratio = nodes as f64 / plan.solver.nodes() as f64;
+    match plan.solver.engine {
         EngineKind::Axisymmetric => ratio,
         EngineKind::HalfSpace => ratio * ratio,
     }
@@ -215,21 +215,20 @@ fn relative_step(plan: &SweepPlan, nodes: usize) -> f64 {
 /// Time (s) of one step, from steps of the middle frequency after the body was relaxed under the mean.
 fn step_s(setup: &Setup) -> Result<f64, SetupError> {
     let plan = setup.plan();
-    let nodes = match plan.contact.solver.engine {
-        EngineKind::HalfSpace if plan.contact.indenter.own_cells().is_none() => {
-            plan.contact.solver.nodes().min(CELLS_MEASURED)
+    let nodes = match plan.solver.engine {
+        EngineKind::HalfSpace if plan.base.contact.indenter.own_cells().is_none() => {
+            plan.solver.nodes().min(CELLS_MEASURED)
         }
-        _ => plan.contact.solver.nodes(),
+        _ => plan.solver.nodes(),
     };
-    let first = plan.conditions().first().cloned();
-    let condition = &first.unwrap_or_else(|| plan.condition());
+    let condition = plan.conditions().first().unwrap_or(&plan.base);
     let (drive, solid) = (&condition.drive, setup.solid(condition)?);
     let omegas = &plan.angular_frequencies_rad_per_s;
     let omega = omegas.get(omegas.len() / 2).copied().unwrap_or(1.0);
     let mut engine = setup.engines(condition, nodes)?.engine(0)?;
     let compliance = solid.compliance.clone();
     engine.tolerate(setup.instant_tolerance(&compliance, drive, omega, plan.cycle.tolerance));
-    let mut march = March::new(engine.as_mut(), compliance, plan.contact.solver.time_rule);
+    let mut march = March::new(engine.as_mut(), compliance, plan.solver.time_rule);
     let steps = plan.cycle.steps as f64;
     let stages = march.stages(std::f64::consts::TAU / omega / steps);
     let value = |value| prescribed(drive.control(), value);
@@ -264,7 +263,7 @@ impl Setup {
         let conditions = self.plan().conditions();
         let of_case = |condition| {
             let branches = self.solid(condition).ok()?.compliance.branches().len();
-            let nodes = self.plan().contact.solver.nodes();
+            let nodes = self.plan().solver.nodes();
             let engines = self.engines(condition, nodes).ok()?;
             Some(self.bytes_of_case(&engines, branches))
         };

@@ -49,14 +49,14 @@ impl Trial {
             return Ok(Self::run(setup, foretold_s));
         }
         let plan = setup.plan();
-        let has_fewer = plan.contact.solver.engine == EngineKind::HalfSpace
-            && plan.contact.indenter.own_cells().is_none()
-            && plan.contact.solver.cells > FEW_CELLS;
+        let has_fewer = plan.solver.engine == EngineKind::HalfSpace
+            && plan.base.contact.indenter.own_cells().is_none()
+            && plan.solver.cells > FEW_CELLS;
         if !has_fewer {
             return Ok(Self::NONE);
         }
         let mut fewer = plan.clone();
-        fewer.contact.solver.cells = FEW_CELLS;
+        fewer.solver.cells = FEW_CELLS;
         let fewer = Setup::new(fewer)?;
         let foretold_s = cost::foretold(&fewer)?.1;
         Ok(Self::run(&fewer, &foretold_s))
@@ -120,14 +120,14 @@ pub(super) fn at_accuracy(setup: &Setup) -> Result<Option<Setup>, SetupError> {
     plan.cycle.error_bars = true;
     let cases = plan.cases();
     let middle = cases.get(cases.len() / 2);
-    let is_free = plan.contact.indenter.own_cells().is_none();
+    let is_free = plan.base.contact.indenter.own_cells().is_none();
     if let Some(case) = middle.filter(|_| is_free) {
-        plan.contact.solver = plan.contact.solver.with_nodes(FIRST_NODES);
+        plan.solver = plan.solver.with_nodes(FIRST_NODES);
         let record = Setup::new(plan.clone())?.run(case, &AtomicBool::new(false));
         let finer = record.and_then(|record| accuracy::next_resolution(&record, accuracy));
         if let Some(finer) = finer {
             plan.cycle.steps = finer.steps;
-            plan.contact.solver = plan.contact.solver.with_nodes(finer.nodes);
+            plan.solver = plan.solver.with_nodes(finer.nodes);
         }
     }
     Setup::new(plan).map(Some)

@@ -97,9 +97,9 @@ impl Stopwatch {
         circumstances: &Circumstances,
     ) -> Result<(), StoreError> {
         let computation = Computation {
-            engine: plan.contact.solver.engine.name(),
+            engine: plan.solver.engine.name(),
             cycle_tolerance: Some(plan.cycle.tolerance),
-            solver_tolerance: plan.contact.solver.tolerance,
+            solver_tolerance: plan.solver.tolerance,
         };
         self.write_of(store, computation, circumstances)
     }
@@ -115,9 +115,9 @@ impl Stopwatch {
         circumstances: &Circumstances,
     ) -> Result<(), StoreError> {
         let computation = Computation {
-            engine: plan.contact.solver.engine.name(),
+            engine: plan.solver.engine.name(),
             cycle_tolerance: None,
-            solver_tolerance: plan.contact.solver.tolerance,
+            solver_tolerance: plan.solver.tolerance,
         };
         self.write_of(store, computation, circumstances)
     }

@@ -578,15 +578,15 @@ mod tests {
                 .unwrap()
                 .material()
                 .unwrap(),
-            plan::tests::condition().indenter,
+            plan::tests::condition().contact.indenter,
             plan::tests::condition().drive,
         );
         let mut plan = plan;
         plan.angular_frequencies_rad_per_s = vec![0.1 + 0.2];
-        (plan.cycle.steps, plan.contact.solver.springs) = (32, 40);
+        (plan.cycle.steps, plan.solver.springs) = (32, 40);
         let setup = crate::sweep::case::Setup::new(plan).unwrap();
         let case = Case {
-            condition: setup.plan().condition(),
+            condition: setup.plan().base.clone(),
             ..case()
         };
         let interrupt = std::sync::atomic::AtomicBool::new(false);
@@ -767,7 +767,7 @@ mod tests {
     /// A sweep with a peak, and its records.
     fn solved() -> (Setup, Records) {
         let condition = plan::tests::condition();
-        let material = condition.material.as_ref().clone();
+        let material = condition.contact.material.as_ref().clone();
         let sphere = crate::indenter::Sphere::new(0.01).unwrap();
         let sweep = Sweep::new(material, sphere, condition.drive).title("a");
         let sweep = sweep.steps(16).unwrap().springs(16).unwrap();
