@@ -195,7 +195,11 @@ pub(super) fn followed(
         MaterialError::SmallBulkModulus { .. } => IdentifyError::NoHistory(error.to_string()),
         error => error.into(),
     })?;
-    let mut scenario = ScenarioPlan::of(plan.contact.with_material(material.into()), drive.clone());
+    let mut scenario = ScenarioPlan::of(
+        plan.contact.with_material(material.into()),
+        plan.solver,
+        drive.clone(),
+    );
     scenario.output.error_bars = false;
     let simulation = Simulation::new(scenario);
     let simulation = simulation.map_err(|error| IdentifyError::NoHistory(error.to_string()))?;

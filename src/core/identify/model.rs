@@ -183,7 +183,7 @@ impl<'a> Model<'a> {
             error => error.into(),
         })?;
         let contact = self.plan.contact.with_material(Arc::new(material));
-        let mut plan = SweepPlan::of(contact, drive);
+        let mut plan = SweepPlan::of(contact, self.plan.solver, drive);
         plan.cycle = self.plan.cycle;
         let omegas = measured
             .iter()

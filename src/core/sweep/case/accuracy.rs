@@ -1,18 +1,17 @@
 //! The resolution at which the error of a case's loss stays below what is asked for, at the least cost.
 
-use crate::history::Work;
 use crate::sweep::case::Resolution;
 use crate::sweep::case::levels::Levels;
-use crate::sweep::case::stabilise::CaseError;
+use crate::sweep::case::stabilise::{CaseError, Stabilised};
 use crate::sweep::plan::EngineKind;
 use crate::sweep::record::error_bars::{Bar, Quantity};
-use crate::sweep::record::{CaseRecord, Status};
+use crate::sweep::record::{CaseRecord, CaseResult};
 
 impl Levels<'_> {
     /// Chooses steps, no fewer than the plan's, and nodes such that the error of the loss stays below `accuracy` of it, at the least
     /// cost. On the cells of a map, of which there are no coarser ones, an error is not known: the result is that of the plan's
     /// steps, and says so.
-    pub(super) fn within_accuracy(&mut self, accuracy: f64) -> Result<(), CaseError> {
+    pub(super) fn within_accuracy(&mut self, accuracy: f64) -> Result<Stabilised, CaseError> {
         /// Each refinement is predicted from the last one's error; where an error falls more slowly than predicted, it takes more.
         const ROUNDS: usize = 8;
         self.contact.cycle.error_bars = true;
@@ -24,34 +23,35 @@ impl Levels<'_> {
             EngineKind::Axisymmetric => (64, (20_000, 6_400)),
             EngineKind::HalfSpace => (64, (4_000, 1_024)),
         };
-        self.record.nodes = nodes;
-        let finest = (finest.0.max(self.record.steps), finest.1);
-        let (mut work, mut failure) = (Work::default(), None);
+        self.course.at.nodes = nodes;
+        let finest = (finest.0.max(self.course.at.steps), finest.1);
+        let (mut last, mut failure) = (None, None);
         for _ in 0..ROUNDS {
-            self.record.work = Work::default();
-            let ended = self.at_resolution();
-            let record = &mut *self.record;
-            work += record.work;
-            record.work = work;
-            let found = match ended {
-                Ok(()) => {
-                    failure = record.message.clone();
-                    loss_and_bar(record)
-                }
+            let found = match self.at_resolution() {
+                Ok(solved) => Some(solved),
                 Err(error) if error.may_be_of_the_resolution() => {
                     failure = Some(error.to_string());
                     None
                 }
                 Err(error) => return Err(error),
             };
-            let (steps, nodes) = match found {
+            let loss_and_bar = found
+                .as_ref()
+                .and_then(|found| loss_and_bar(found.result.as_ref()?));
+            if let Some(found) = &found {
+                failure = found.message.clone().filter(|_| loss_and_bar.is_none());
+            }
+            last = found.or(last);
+            let at = self.course.at;
+            let (steps, nodes) = match loss_and_bar {
                 // No result, or no error of it.
-                None => (2 * record.steps, 2 * record.nodes),
+                None => (2 * at.steps, 2 * at.nodes),
                 Some((loss_j, bar)) => {
-                    failure = None;
                     let allowed_j = accuracy * loss_j.abs();
-                    if bar.total() <= allowed_j {
-                        return Ok(());
+                    if bar.total() <= allowed_j
+                        && let Some(reached) = last.take()
+                    {
+                        return Ok(reached);
                     }
                     if bar.material > allowed_j {
                         failure =
@@ -63,30 +63,37 @@ impl Levels<'_> {
                     let left_j = allowed_j - bar.steady - bar.material;
                     let share_j = (0.5 * left_j).max(0.1 * allowed_j);
                     (
-                        finer(record.steps, bar.steps, share_j),
-                        finer(record.nodes, bar.nodes, share_j),
+                        finer(at.steps, bar.steps, share_j),
+                        finer(at.nodes, bar.nodes, share_j),
                     )
                 }
             };
             if steps > finest.0 || nodes > finest.1 {
                 break;
             }
-            (record.steps, record.nodes) = (steps, nodes);
+            self.course.at = Resolution { steps, nodes };
         }
-        let record = &mut *self.record;
-        let reached = record.energy_loss_error_j().zip(record.energy_loss_j());
-        let reached = reached.map_or(f64::INFINITY, |(error, loss)| (error / loss).abs());
+        Ok(self.out_of_reach(last, failure, accuracy))
+    }
+
+    /// What becomes of a case whose last solution, if there is any, has not the accuracy asked for: it has no result.
+    fn out_of_reach(
+        &self,
+        last: Option<Stabilised>,
+        failure: Option<String>,
+        accuracy: f64,
+    ) -> Stabilised {
+        let Resolution { steps, nodes } = self.course.at;
+        let mut last = last.unwrap_or_else(|| Stabilised::none(self.contact.cycle.method));
+        let reached = last.result.take().as_ref().and_then(loss_and_bar);
+        let reached = reached.map_or(f64::INFINITY, |(loss_j, bar)| (bar.total() / loss_j).abs());
         let why = failure.unwrap_or_else(|| {
             format!(
-                "the error of the loss is {reached:.1e} of it at {} steps and {} nodes, above the accuracy {accuracy:.1e}",
-                record.steps, record.nodes
+                "the error of the loss is {reached:.1e} of it at {steps} steps and {nodes} nodes, above the accuracy {accuracy:.1e}"
             )
         });
-        // There is no result of the accuracy asked for, and so no result.
-        record.result = None;
-        record.status = Status::NotConverged;
-        record.message = Some(why);
-        Ok(())
+        last.message = Some(why);
+        last
     }
 
     /// Why no resolution reaches the accuracy: the material alone leaves this share of the loss open.
@@ -104,7 +111,7 @@ impl Levels<'_> {
 /// The resolution at which a case is predicted to have this accuracy, from its record on a coarser one; that one where it has it already,
 /// `None` where it has no result.
 pub(in crate::sweep) fn next_resolution(record: &CaseRecord, accuracy: f64) -> Option<Resolution> {
-    let (loss_j, bar) = loss_and_bar(record)?;
+    let (loss_j, bar) = loss_and_bar(record.result.as_ref()?)?;
     let share_j = 0.5 * accuracy * loss_j.abs();
     Some(Resolution {
         steps: finer(record.steps, bar.steps, share_j),
@@ -112,9 +119,8 @@ pub(in crate::sweep) fn next_resolution(record: &CaseRecord, accuracy: f64) -> O
     })
 }
 
-/// The loss (J) of a record and its bar, where it has both.
-fn loss_and_bar(record: &CaseRecord) -> Option<(f64, Bar)> {
-    let result = record.result.as_ref()?;
+/// The loss (J) of a result and its bar, where it has both.
+fn loss_and_bar(result: &CaseResult) -> Option<(f64, Bar)> {
     let bar = result.errors.as_ref()?.bar(Quantity::EnergyLoss)?;
     Some((result.analysis.energy_loss_j, bar))
 }

@@ -6,28 +6,53 @@ use crate::contact::{ContactError, Engine};
 use crate::history::{Work, order_of_steps};
 use crate::sweep::case::edge_layer::EdgeLayer;
 use crate::sweep::case::lift_off;
-use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised, Wanted};
-use crate::sweep::case::{Setup, SetupError};
+use crate::sweep::case::stabilise::{CaseError, Contact, InSteps, Stabilised, Wanted, start_of};
+use crate::sweep::case::{Resolution, Setup, SetupError};
 use crate::sweep::engine::MAX_GROWTHS;
 use crate::sweep::plan::{EngineKind, instant_tolerance};
+use crate::sweep::record::CaseResult;
 use crate::sweep::record::error_bars::{Edge, ErrorBars, InNodes, Ladder, Pair, Quantity};
-use crate::sweep::record::{CaseRecord, CaseResult, Status};
 
 /// Fewest steps and nodes that a coarser resolution may have: below, a cycle has no shape, and its error says nothing.
 const FEWEST_STEPS: usize = 8;
 const FEWEST_NODES: usize = 12;
 
-/// A case under way, and its record so far.
+/// A case under way, and what it has taken so far.
 pub(super) struct Levels<'a> {
     pub setup: &'a Setup,
     pub contact: Contact<'a>,
-    pub record: &'a mut CaseRecord,
+    pub course: &'a mut Course,
 }
 
-/// Results on one number of nodes, by the number of steps: the finest last.
-pub(super) struct Solved {
+/// What a case has taken so far, whatever becomes of it.
+pub(super) struct Course {
+    /// The resolution of its result.
+    pub at: Resolution,
+    /// Half width (m) of the domain last tried for it, and how often that was enlarged.
+    pub domain_half_width_m: f64,
+    pub domain_enlarged: usize,
+    /// Coarser levels included.
+    pub work: Work,
+}
+
+impl Course {
+    /// Nothing solved yet at this resolution.
+    pub fn at(at: Resolution) -> Self {
+        Self {
+            at,
+            domain_half_width_m: 0.0,
+            domain_enlarged: 0,
+            work: Work::default(),
+        }
+    }
+}
+
+/// Stabilised cycles on one number of nodes: in the most steps, and in fewer.
+pub(super) struct Level {
     nodes: usize,
-    cycles: Vec<(usize, Stabilised)>,
+    steps: usize,
+    finest: Stabilised,
+    coarser: Vec<(usize, Stabilised)>,
 }
 
 impl Levels<'_> {
@@ -35,54 +60,55 @@ impl Levels<'_> {
         self.setup.plan.solver.engine
     }
 
-    /// Solves at the record's own resolution, and at coarser ones where error bars are wanted.
-    pub fn at_resolution(&mut self) -> Result<(), CaseError> {
-        let (fine, nodes) = (self.record.steps, self.record.nodes);
+    /// Solves at the resolution of the case, and at coarser ones where error bars are wanted.
+    pub fn at_resolution(&mut self) -> Result<Stabilised, CaseError> {
+        let Resolution { steps: fine, nodes } = self.course.at;
         let bars = self.contact.cycle.error_bars && self.can_be_coarsened()?;
         // From coarse to fine: each number of steps starts the next from its memory.
         let steps = match (bars, self.engine()) {
-            (false, _) => vec![fine],
-            (true, EngineKind::Axisymmetric) => vec![fine / 4, fine / 2, fine],
-            (true, EngineKind::HalfSpace) => vec![fine / 2, fine],
+            (false, _) => &[][..],
+            (true, EngineKind::Axisymmetric) => &[fine / 4, fine / 2],
+            (true, EngineKind::HalfSpace) => &[fine / 2],
         };
         let mut domain = (0.0, 0);
-        let solved = self.solve(&self.contact, nodes, &steps, &mut domain);
-        (self.record.domain_half_width_m, self.record.domain_enlarged) = domain;
-        let mut solved = solved?;
-        self.record.take(&mut solved, self.contact.cycle.at_cycle);
-        if self.record.result.is_none() || !bars {
-            return Ok(());
-        }
-        let errors = self.error_bars(&mut solved)?;
-        if errors.is_none() {
-            self.note(|| "no error bars: no coarser resolution stabilised, or the contact is shorter than two time steps".to_owned());
-        }
-        if let Some(result) = &mut self.record.result {
+        let solved = self.solve(&self.contact, nodes, (steps, fine), &mut domain);
+        (self.course.domain_half_width_m, self.course.domain_enlarged) = domain;
+        let mut level = solved?;
+        self.course.work += level.work();
+        let (errors, note) = match bars && level.finest.result.is_some() {
+            true => self.error_bars(&mut level)?,
+            false => (None, None),
+        };
+        let mut finest = level.finest;
+        if let Some(result) = &mut finest.result {
             result.errors = errors;
         }
-        Ok(())
+        finest.message = finest.message.or(note);
+        Ok(finest)
     }
 
-    /// Adds what a reader should know, where nothing else is said.
-    pub fn note(&mut self, message: impl FnOnce() -> String) {
-        self.record.message.get_or_insert_with(message);
-    }
-
-    /// Error bars of a record's result, from what is coarser in steps on the same nodes and coarser in nodes at the same steps.
-    /// Where a coarser resolution does not stabilise, one between it and the result takes its place; the order of the error is then
-    /// not seen, and the lowest believed is taken. `None` where that fails too.
-    fn error_bars(&mut self, solved: &mut Solved) -> Result<Option<ErrorBars>, CaseError> {
+    /// Error bars of the result of a case, from what is coarser in steps on the same nodes and coarser in nodes at the same steps, and what a
+    /// reader should know of them. Where a coarser resolution does not stabilise, one between it and the result takes its place; the
+    /// order of the error is then not seen, and the lowest believed is taken. No bars where that fails too.
+    fn error_bars(
+        &mut self,
+        all: &mut Level,
+    ) -> Result<(Option<ErrorBars>, Option<String>), CaseError> {
         let contact = self.contact;
-        let (steps, nodes) = (self.record.steps, self.record.nodes);
+        let none = || {
+            let why = "no error bars: no coarser resolution stabilised, or the contact is shorter than two time steps";
+            Ok((None, Some(why.to_owned())))
+        };
+        let Resolution { steps, nodes } = self.course.at;
         let between = |fine: usize| 4 * (3 * fine / 16).max(1);
         let mut middle = steps / 2;
-        if solved.result(middle).is_none() {
+        if all.result(middle).is_none() {
             middle = between(steps);
-            let more = self.coarser(&contact, nodes, &[middle])?;
-            solved.cycles.extend(more.cycles);
+            let more = self.coarser(&contact, nodes, &[], middle)?;
+            all.coarser.extend(more.map(|more| (middle, more.finest)));
         }
-        if solved.result(middle).is_none() {
-            return Ok(None);
+        if all.result(middle).is_none() {
+            return none();
         }
         // On cells, ratios that put the edge of the contact elsewhere between two of them each time; springs end where the edge
         // turns, whatever their number.
@@ -93,15 +119,20 @@ impl Levels<'_> {
         // As many steps as the difference between the two needs, and those that tell the order in the steps where the full number
         // of nodes is too dear for it.
         let on_half = match self.engine() {
-            EngineKind::HalfSpace if middle == steps / 2 => &[steps / 4, middle][..],
-            _ => &[middle],
+            EngineKind::HalfSpace if middle == steps / 2 => &[steps / 4][..],
+            _ => &[],
         };
-        let mut on_half = self.coarser(&contact, half, on_half)?;
-        if on_half.result(middle).is_none() {
-            on_half = self.coarser(&contact, between(nodes), &[middle])?;
-        }
+        let has_result = |level: &Level| level.finest.result.is_some();
+        let on_half = self.coarser(&contact, half, on_half, middle)?;
+        let on_half = match on_half.filter(has_result) {
+            Some(level) => level,
+            None => match self.coarser(&contact, between(nodes), &[], middle)? {
+                Some(level) => level,
+                None => return none(),
+            },
+        };
         let on_quarter = match quarter >= FEWEST_NODES && on_half.nodes == half {
-            true => Some(self.coarser(&contact, quarter, &[middle])?),
+            true => self.coarser(&contact, quarter, &[], middle)?,
             false => None,
         };
         let mut others = Vec::new();
@@ -114,31 +145,34 @@ impl Levels<'_> {
                 checkpoints: None,
                 ..contact
             };
-            others.push(self.coarser(&with_other, on_half.nodes, &[middle])?);
+            let other = self.coarser(&with_other, on_half.nodes, &[], middle)?;
+            others.push(other.and_then(|other| other.finest.result));
         }
-        let missing = others.iter().filter(|other| other.result(middle).is_none());
-        let (missing, all) = (missing.count(), others.len());
-        if missing > 0 {
-            self.note(|| {
-                format!(
-                    "the error bars leave out {missing} of the {all} materials that fit the data as well: no stabilised cycle was found with them"
-                )
-            });
+        let missing = others.iter().filter(|other| other.is_none()).count();
+        let materials = others.len();
+        let note = (missing > 0).then(|| {
+            format!(
+                "the error bars leave out {missing} of the {materials} materials that fit the data as well: no stabilised cycle was found \
+                 with them"
+            )
+        });
+        match self.bars(middle, [all, &on_half], on_quarter.as_ref(), &others) {
+            Some(bars) => Ok((Some(bars), note)),
+            None => none().map(|(bars, why)| (bars, note.or(why))),
         }
-        Ok(self.bars(middle, [solved, &on_half], on_quarter.as_ref(), &others))
     }
 
-    /// Error bars of the record's result, from results on all, half and a quarter of its nodes, in a middle number of steps, and from
-    /// those of other materials on half of them. `None` where one of the first two has no result, or the contact is too short.
+    /// Error bars from results on all, half and a quarter of the nodes, in a middle number of steps, and from those of other materials on
+    /// half of them. `None` where one of the first two has no result, or the contact is too short.
     fn bars(
         &self,
         middle: usize,
-        [all, half]: [&Solved; 2],
-        quarter: Option<&Solved>,
-        others: &[Solved],
+        [all, half]: [&Level; 2],
+        quarter: Option<&Level>,
+        others: &[Option<CaseResult>],
     ) -> Option<ErrorBars> {
-        let (contact, record) = (&self.contact, &self.record);
-        let result = record.result.as_ref()?;
+        let (contact, at) = (&self.contact, self.course.at);
+        let result = all.result(at.steps)?;
         let (on_all, on_half) = (all.result(middle)?, half.result(middle)?);
         let pair = |finer, coarser, fine: usize, coarse: usize| Pair {
             finer,
@@ -146,31 +180,31 @@ impl Levels<'_> {
             ratio: fine as f64 / coarse as f64,
         };
         // Where the fewest steps were not taken on all nodes, they were on half of them.
-        let coarsest = record.steps / 4;
+        let coarsest = at.steps / 4;
         let second = [all, half].into_iter().find_map(|on| {
             let (finer, coarser) = (on.result(middle)?, on.result(coarsest)?);
             Some(pair(finer, coarser, middle, coarsest))
         });
         let in_steps = Ladder {
-            first: pair(result, on_all, record.steps, middle),
-            second: second.filter(|_| middle == record.steps / 2),
+            first: pair(result, on_all, at.steps, middle),
+            second: second.filter(|_| middle == at.steps / 2),
         };
         let on_quarter = quarter.and_then(|on| Some((on.result(middle)?, on.nodes)));
         let in_nodes = Ladder {
             first: pair(on_all, on_half, all.nodes, half.nodes),
             second: on_quarter.map(|(result, nodes)| pair(on_half, result, half.nodes, nodes)),
         };
-        let others = others.iter().filter_map(|other| other.result(middle));
+        let others = others.iter().flatten();
         let others: Vec<_> = others.map(|other| (on_half, other)).collect();
         // How far a cycle is from the stabilised one is an error of that one alone.
         let of_stabilised = contact.cycle.at_cycle.is_none();
-        let distance = record.steady_distance.filter(|_| of_stabilised);
+        let distance = all.finest.distance.filter(|_| of_stabilised);
         let distance = distance.unwrap_or(0.0);
         let of_instants = instant_tolerance::SHARE * contact.cycle.tolerance;
         let (distance, believed) = match self.engine() {
             EngineKind::Axisymmetric => (distance, InNodes::SPRINGS),
             EngineKind::HalfSpace => {
-                let cell_m = 2.0 * record.domain_half_width_m / record.nodes as f64;
+                let cell_m = 2.0 * self.course.domain_half_width_m / at.nodes as f64;
                 let condition = contact.condition;
                 let (indenter, on_layer) = (
                     condition.contact.indenter.as_ref(),
@@ -189,7 +223,7 @@ impl Levels<'_> {
             &others,
         );
         let drive = &contact.condition.drive;
-        let bars = lift_off::widened(bars, (result, record.steps), drive, of_stabilised)?;
+        let bars = lift_off::widened(bars, (result, at.steps), drive, of_stabilised)?;
         let indenter = contact.condition.contact.indenter.as_ref();
         let relaxation = contact.solid.relaxation.as_ref();
         let layer = relaxation.and_then(|relaxation| EdgeLayer::new(indenter, relaxation));
@@ -199,60 +233,59 @@ impl Levels<'_> {
         })
     }
 
-    /// A coarser resolution, whose work the record counts; without a result where it fails.
+    /// A coarser level, in the most steps and in fewer; `None` where it fails.
     pub fn coarser(
         &mut self,
         contact: &Contact<'_>,
         nodes: usize,
-        steps: &[usize],
-    ) -> Result<Solved, CaseError> {
+        fewer: &[usize],
+        steps: usize,
+    ) -> Result<Option<Level>, CaseError> {
         let contact = Contact {
             wanted: contact.wanted.min(Wanted::Numbers),
             ..*contact
         };
-        let solved = match self.solve(&contact, nodes, steps, &mut (0.0, 0)) {
+        match self.solve(&contact, nodes, (fewer, steps), &mut (0.0, 0)) {
             Err(CaseError::Contact(ContactError::Interrupted)) => {
-                return Err(ContactError::Interrupted.into());
+                Err(ContactError::Interrupted.into())
             }
-            Err(_) => Solved {
-                nodes,
-                cycles: Vec::new(),
-            },
-            Ok(solved) => solved,
-        };
-        self.record.work += solved.work();
-        Ok(solved)
+            Err(_) => Ok(None),
+            Ok(level) => {
+                self.course.work += level.work();
+                Ok(Some(level))
+            }
+        }
     }
 
     /// Whether a coarser resolution exists and means the same contact: an indenter on its own cells has no coarser one.
     fn can_be_coarsened(&self) -> Result<bool, SetupError> {
-        Ok(self.record.steps / 4 >= FEWEST_STEPS
-            && self.record.nodes / 2 >= FEWEST_NODES
+        Ok(self.course.at.steps / 4 >= FEWEST_STEPS
+            && self.course.at.nodes / 2 >= FEWEST_NODES
             && !self.has_own_cells()?)
     }
 
     /// Whether the cells are those of the indenter.
     pub fn has_own_cells(&self) -> Result<bool, SetupError> {
-        let engines = (self.setup).engines(self.contact.condition, self.record.nodes)?;
+        let engines = (self.setup).engines(self.contact.condition, self.course.at.nodes)?;
         Ok(engines.has_cells_of_its_own())
     }
 
-    /// The case on so many nodes, in each of the numbers of steps, every one started from the memory of the last, on ever larger
-    /// domains as long as the contact reaches the edge. Only the last number of steps has to succeed. `domain` is told the half width (m)
+    /// The case on this number of nodes, in the most steps and before that in fewer, every one started from the memory of the last, on ever
+    /// larger domains as long as the contact reaches the edge. Only the most steps have to succeed. `domain` becomes the half width (m)
     /// last tried, and how often it was enlarged.
     fn solve(
         &self,
         contact: &Contact<'_>,
         nodes: usize,
-        steps: &[usize],
+        (fewer, steps): (&[usize], usize),
         domain: &mut (f64, usize),
-    ) -> Result<Solved, CaseError> {
+    ) -> Result<Level, CaseError> {
         let engines = self.setup.engines_of_case(contact, nodes)?;
         let mut growths = 0;
         loop {
             let mut engine = engines.engine(growths)?;
             *domain = (engines.enlarged_half_width_m(growths).0, growths);
-            match self.on_engine(contact, engine.as_mut(), steps) {
+            match self.on_engine(contact, engine.as_mut(), fewer, steps) {
                 Err(error @ CaseError::Contact(ContactError::ReachedEdge { .. })) => {
                     match engines.not_enlarged(growths) {
                         Some(why) => return Err(why.into()),
@@ -260,7 +293,14 @@ impl Levels<'_> {
                         None => return Err(error),
                     }
                 }
-                ended => return ended.map(|cycles| Solved { nodes, cycles }),
+                ended => {
+                    return ended.map(|(coarser, finest)| Level {
+                        nodes,
+                        steps,
+                        finest,
+                        coarser,
+                    });
+                }
             }
         }
     }
@@ -270,8 +310,9 @@ impl Levels<'_> {
         &self,
         contact: &Contact<'_>,
         engine: &mut dyn Engine,
-        steps: &[usize],
-    ) -> Result<Vec<(usize, Stabilised)>, CaseError> {
+        fewer: &[usize],
+        steps: usize,
+    ) -> Result<InSteps, CaseError> {
         if let Some(flag) = &self.setup.interrupt {
             engine.interrupted_by(Arc::clone(flag));
         }
@@ -286,55 +327,40 @@ impl Levels<'_> {
             && self.setup.plan.solver.tolerance.is_none()
             && let Some(tighter) = instant_tolerance::tighter(needed)
         {
-            match contact.searching_alone().in_steps(engine, steps) {
-                Ok(found)
-                    if found.len() == steps.len()
-                        && found.iter().all(|(_, cycle)| cycle.result.is_some()) =>
-                {
-                    return Ok(found);
-                }
-                Ok(_) => engine.tolerate(tighter),
+            match contact.by_search_alone(engine, fewer, steps) {
+                Ok(Some(found)) => return Ok(found),
+                Ok(None) => engine.tolerate(tighter),
                 // No tolerance of the cycle's will do: it is marched as it is.
                 Err(CaseError::Contact(ContactError::NotConverged { .. })) => {}
                 Err(error) => return Err(error),
             }
         }
-        contact.in_steps(engine, steps)
+        let coarser = contact.in_fewer_steps(engine, fewer)?;
+        let finest = contact.stabilise(engine, steps, start_of(&coarser))?;
+        Ok((coarser, finest))
     }
 }
 
-impl Solved {
-    /// The result in so many steps.
-    pub fn result(&self, steps: usize) -> Option<&CaseResult> {
-        let (_, cycle) = self.cycles.iter().find(|(s, _)| *s == steps)?;
+impl Level {
+    /// The result in this number of steps.
+    fn result(&self, steps: usize) -> Option<&CaseResult> {
+        if steps == self.steps {
+            return self.finest.result.as_ref();
+        }
+        let (_, cycle) = self.coarser.iter().find(|(count, _)| *count == steps)?;
         cycle.result.as_ref()
     }
 
-    fn work(&self) -> Work {
-        let mut work = Work::default();
-        for (_, cycle) in &self.cycles {
-            work += cycle.work;
-        }
-        work
+    /// The loss (J) in the most steps.
+    pub fn loss_j(&self) -> Option<f64> {
+        let result = self.finest.result.as_ref()?;
+        Some(result.analysis.energy_loss_j)
     }
-}
 
-impl CaseRecord {
-    /// Takes over what was found in the most steps; leaves the coarser results where they are.
-    fn take(&mut self, solved: &mut Solved, at_cycle: Option<usize>) {
-        self.work = solved.work();
-        let Some((_, finest)) = solved.cycles.last_mut() else {
-            return;
-        };
-        self.method = finest.method;
-        self.cycles = finest.cycles;
-        self.steady_distance = finest.distance;
-        self.message = finest.message.take();
-        self.result = finest.result.take();
-        self.status = match (&self.result, at_cycle) {
-            (Some(_), None) => Status::Converged,
-            (Some(_), Some(_)) => Status::Transient,
-            (None, _) => Status::NotConverged,
-        };
+    fn work(&self) -> Work {
+        let coarser = self.coarser.iter().map(|(_, cycle)| cycle.work);
+        let mut work = self.finest.work;
+        coarser.for_each(|of_cycle| work += of_cycle);
+        work
     }
 }

@@ -21,20 +21,19 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::contact::ContactError;
 use crate::drive::{Control, HarmonicDrive};
-use crate::history::Work;
 use crate::material::{Creep, Material};
 use crate::sweep::case::checkpoint::Checkpoints;
-use crate::sweep::case::levels::Levels;
+use crate::sweep::case::levels::{Course, Levels};
 pub use crate::sweep::case::recording::sample;
 use crate::sweep::case::solid::Solid;
-use crate::sweep::case::stabilise::{CaseError, Contact, Wanted};
+use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised, Wanted};
 pub use crate::sweep::engine::setup::SetupError;
 use crate::sweep::engine::{self, EngineBuilder, EngineError, LargestContact};
 use crate::sweep::plan::check::check_frequency;
 use crate::sweep::plan::instant_tolerance;
 use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::{Case, Condition, CyclePlan, EngineKind, SweepPlan};
-use crate::sweep::record::{CaseRecord, Status};
+use crate::sweep::record::{CaseRecord, CaseResult, Status};
 use crate::sweep::store::entry::Purpose;
 
 /// What all cases of a sweep share.
@@ -316,66 +315,27 @@ impl Setup {
         if aim.wanted != Wanted::Everything {
             (cycle.error_bars, cycle.accuracy) = (false, None);
         }
-        let wants_bars = cycle.error_bars || cycle.accuracy.is_some();
-        let mut record = CaseRecord {
-            index: case.index,
-            angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
-            varied: case.condition.values,
-            drive_mean: case.condition.drive.mean(),
-            drive_amplitude: case.condition.drive.amplitude(),
-            status: Status::Failed,
-            message: None,
-            warnings: Vec::new(),
-            method: cycle.method,
+        let mut course = Course::at(Resolution {
             steps: cycle.steps,
             nodes,
-            cycles: 0,
-            steady_distance: None,
-            domain_half_width_m: 0.0,
-            domain_enlarged: 0,
-            work: Work::default(),
-            result: None,
-        };
-        let ended = self.solve_case(aim, (case, cycle), (checkpoints, interrupt), &mut record);
-        match ended {
-            Ok(()) => {}
-            Err(CaseError::Contact(ContactError::Interrupted)) => {
-                if let Some(checkpoints) = checkpoints {
-                    checkpoints.flush();
-                }
-                return None;
+        });
+        let ended = self.solve(aim, (case, cycle), (checkpoints, interrupt), &mut course);
+        if let Err(CaseError::Contact(ContactError::Interrupted)) = ended {
+            if let Some(checkpoints) = checkpoints {
+                checkpoints.flush();
             }
-            Err(error) => {
-                record.result = None;
-                record.status = Status::Failed;
-                record.message = Some(error.to_string());
-            }
+            return None;
         }
-        record.refuse_what_is_not_finite();
-        if let (Some(adhesion), Some(result)) =
-            (&self.plan.base.contact.adhesion, &mut record.result)
-            && let Ok(solid) = self.solid(&case.condition)
-        {
-            let omega = case.angular_frequency_rad_per_s;
-            let modulus_pa = solid.compliance.complex_compliance(omega).norm().recip();
-            let pull_off_n = case.condition.drive.pull_off_n();
-            result.tabor_parameter = Some(adhesion.tabor_parameter(pull_off_n, modulus_pa));
-        }
-        let solver = &self.plan.solver;
-        record.warnings = outside_model::warnings(solver, &case.condition, &record, wants_bars);
-        if let (Some(result), false) = (&mut record.result, self.plan.is_small()) {
-            result.cycle.round_profiles();
-        }
-        Some(record)
+        Some(self.record(case, cycle, course, ended))
     }
 
-    fn solve_case(
+    fn solve(
         &self,
         aim: Aim,
         (case, cycle): (&Case, CyclePlan),
         (checkpoints, interrupt): (Option<&Checkpoints>, &AtomicBool),
-        record: &mut CaseRecord,
-    ) -> Result<(), CaseError> {
+        course: &mut Course,
+    ) -> Result<Stabilised, CaseError> {
         check_frequency(case.angular_frequency_rad_per_s).map_err(SetupError::from)?;
         let solid = self.solid(&case.condition)?;
         let contact = Contact {
@@ -393,15 +353,79 @@ impl Setup {
         let mut levels = Levels {
             setup: self,
             contact,
-            record,
+            course,
         };
-        match cycle.accuracy {
+        let mut found = match cycle.accuracy {
             Some(accuracy) => levels.within_accuracy(accuracy)?,
             None => levels.at_resolution()?,
+        };
+        if aim.wanted == Wanted::Everything
+            && let Some(result) = &mut found.result
+        {
+            let (losses_j, note) = levels.replica_losses_j(result.analysis.energy_loss_j)?;
+            result.replica_losses_j = losses_j;
+            found.message = found.message.or(note);
         }
-        match aim.wanted {
-            Wanted::Everything => levels.add_replicas(),
-            Wanted::Numbers | Wanted::Loss => Ok(()),
+        Ok(found)
+    }
+
+    /// The record of a case that ended like this.
+    fn record(
+        &self,
+        case: &Case,
+        cycle: CyclePlan,
+        course: Course,
+        ended: Result<Stabilised, CaseError>,
+    ) -> CaseRecord {
+        let (found, error) = match ended {
+            Ok(found) => (found, None),
+            Err(error) => (Stabilised::none(cycle.method), Some(error.to_string())),
+        };
+        let not_finite = || {
+            let is_finite = found.result.as_ref().is_none_or(CaseResult::is_finite);
+            (!is_finite).then(|| CaseResult::NOT_FINITE.to_owned())
+        };
+        let error = error.or_else(not_finite);
+        let mut result = found.result.filter(|_| error.is_none());
+        if let (Some(result), false) = (&mut result, self.plan.is_small()) {
+            result.cycle.round_profiles();
+        }
+        let (condition, omega) = (&case.condition, case.angular_frequency_rad_per_s);
+        let at = course.at;
+        let wants_bars = cycle.error_bars || cycle.accuracy.is_some();
+        let of_case = (omega, at.steps);
+        CaseRecord {
+            index: case.index,
+            angular_frequency_rad_per_s: omega,
+            varied: condition.values,
+            drive_mean: condition.drive.mean(),
+            drive_amplitude: condition.drive.amplitude(),
+            status: match (&error, &result, cycle.at_cycle) {
+                (Some(_), _, _) => Status::Failed,
+                (None, Some(_), None) => Status::Converged,
+                (None, Some(_), Some(_)) => Status::Transient,
+                (None, None, _) => Status::NotConverged,
+            },
+            message: error.or(found.message),
+            warnings: outside_model::warnings(
+                &self.plan.solver,
+                condition,
+                of_case,
+                result.as_ref(),
+                wants_bars,
+            ),
+            method: found.method,
+            steps: at.steps,
+            nodes: at.nodes,
+            cycles: found.cycles,
+            steady_distance: found.distance.filter(|distance| distance.is_finite()),
+            domain_half_width_m: match course.domain_half_width_m.is_finite() {
+                true => course.domain_half_width_m,
+                false => 0.0,
+            },
+            domain_enlarged: course.domain_enlarged,
+            work: course.work,
+            result,
         }
     }
 }

@@ -4,21 +4,22 @@ use crate::cycle::ContactDuty;
 use crate::sweep::case::lift_off::FEWEST_STEPS;
 use crate::sweep::engine::slope::{ROUNDING, of_slope, slope_of_case};
 use crate::sweep::plan::{Condition, EngineKind, SolverPlan};
-use crate::sweep::record::CaseRecord;
+use crate::sweep::record::CaseResult;
+use crate::sweep::record::error_bars::Quantity;
 use crate::sweep::record::warning::{NoErrorBars, Warning};
 
-/// What is to be said of a case, once it is solved.
+/// What is to be said of a case at an angular frequency (rad/s) and in a number of steps, once it is solved.
 pub(in crate::sweep) fn warnings(
     solver: &SolverPlan,
     condition: &Condition,
-    record: &CaseRecord,
+    (omega, steps): (f64, usize),
+    result: Option<&CaseResult>,
     error_bars_wanted: bool,
 ) -> Vec<Warning> {
-    let omega = record.angular_frequency_rad_per_s;
     let window = condition.contact.material.measured_window_s();
     let mut warnings: Vec<Warning> = of_frequency(window, omega).into_iter().collect();
     warnings.extend(Warning::of_temperature(&condition.contact.material));
-    let Some(result) = &record.result else {
+    let Some(result) = result else {
         return warnings;
     };
     let slope = slope_of_case(condition.contact.indenter.as_ref(), result);
@@ -39,13 +40,17 @@ pub(in crate::sweep) fn warnings(
         radius_m,
     ));
     warnings.extend(Warning::of_loss(result));
-    let steps_in_contact = result.contact_duty.steps(record.steps);
+    let steps_in_contact = result.contact_duty.steps(steps);
     let lifts_off = result.contact_duty != ContactDuty::WHOLE;
     if lifts_off {
         warnings.extend(Warning::of_steps_in_contact(steps_in_contact));
     }
     let loss_j = result.analysis.energy_loss_j.abs();
-    let bar = record.energy_loss_error_j().map(|error_j| error_j / loss_j);
+    let error_j = result
+        .errors
+        .as_ref()
+        .and_then(|errors| errors.of(Quantity::EnergyLoss));
+    let bar = error_j.map(|error_j| error_j / loss_j);
     let imbalance = result.energy_imbalance();
     warnings.extend(imbalance.and_then(|part| Warning::of_energy_imbalance(part, bar)));
     if error_bars_wanted && result.errors.is_none() {

@@ -106,7 +106,7 @@ impl Recording {
             approach_m: extrema(of_approach, &samples.approach_m)?,
             contact_radius_m: not_negative(extrema(of_contact, &samples.contact_radius_m)?),
             contact_duty,
-            tabor_parameter: None,
+            tabor_parameter: contact.tabor_parameter(),
             peak_pressure_pa: (peaks.as_deref())
                 .and_then(|peaks| extrema(of_contact, peaks).ok())
                 .map(not_negative),

@@ -10,14 +10,14 @@ use crate::sweep::case::stabilise::{CaseError, Contact, Wanted};
 use crate::sweep::plan::{CyclePlan, EngineKind, Method};
 
 impl Levels<'_> {
-    /// Adds the losses with the replicas to a record that has a result.
-    pub(super) fn add_replicas(&mut self) -> Result<(), CaseError> {
-        let Some(loss_j) = self.record.energy_loss_j() else {
-            return Ok(());
-        };
+    /// The losses (J) with the replicas of the material of a case that lost this much, and what a reader should know of them.
+    pub(super) fn replica_losses_j(
+        &mut self,
+        loss_j: f64,
+    ) -> Result<(Vec<Option<f64>>, Option<String>), CaseError> {
         let replicas = &self.contact.solid.replicas;
         if replicas.is_empty() {
-            return Ok(());
+            return Ok((Vec::new(), None));
         }
         let contact = Contact {
             cycle: CyclePlan {
@@ -38,9 +38,8 @@ impl Levels<'_> {
                 compliance,
                 ..contact
             };
-            let solved = self.coarser(&contact, at.nodes, &[at.steps])?;
-            let result = solved.result(at.steps);
-            Ok(result.map(|result| result.analysis.energy_loss_j))
+            let solved = self.coarser(&contact, at.nodes, &[], at.steps)?;
+            Ok(solved.and_then(|level| level.loss_j()))
         };
         let own_j = coarse_j(contact.compliance)?.filter(|own_j| *own_j > 0.0);
         let mut losses_j = Vec::with_capacity(replicas.len());
@@ -53,18 +52,13 @@ impl Levels<'_> {
             losses_j.push(ratio.map(|ratio| ratio * loss_j));
         }
         let missing = losses_j.iter().filter(|loss| loss.is_none()).count();
-        if missing > 0 {
-            self.note(|| {
-                format!(
-                    "the error of the material leaves out {missing} of its {} replicas: no stabilised cycle was found with them",
-                    replicas.len()
-                )
-            });
-        }
-        if let Some(result) = &mut self.record.result {
-            result.replica_losses_j = losses_j;
-        }
-        Ok(())
+        let note = (missing > 0).then(|| {
+            format!(
+                "the error of the material leaves out {missing} of its {} replicas: no stabilised cycle was found with them",
+                replicas.len()
+            )
+        });
+        Ok((losses_j, note))
     }
 
     /// Steps and nodes on which the replicas are solved. A map has its own cells and no others.

@@ -73,6 +73,22 @@ pub(in crate::sweep) struct Stabilised {
     pub result: Option<CaseResult>,
 }
 
+impl Stabilised {
+    /// No cycle: none was solved by this method.
+    pub fn none(method: Method) -> Self {
+        Self {
+            method,
+            cycles: 0,
+            work: Work::default(),
+            distance: None,
+            message: None,
+            memory: Vec::new(),
+            last: None,
+            result: None,
+        }
+    }
+}
+
 /// Why there is neither a result nor the finding that the cycle does not stabilise.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(in crate::sweep) enum CaseError {
@@ -137,6 +153,17 @@ impl Contact<'_> {
         }
     }
 
+    /// That of an attracted indenter, at the modulus of the body at this frequency.
+    pub(super) fn tabor_parameter(&self) -> Option<f64> {
+        let adhesion = self.condition.contact.adhesion?;
+        let omega = self.angular_frequency_rad_per_s;
+        let modulus_pa = (self.solid.compliance)
+            .complex_compliance(omega)
+            .norm()
+            .recip();
+        Some(adhesion.tabor_parameter(self.condition.drive.pull_off_n(), modulus_pa))
+    }
+
     /// Cycles of a march, at most.
     fn most_cycles(&self) -> usize {
         self.cycle.at_cycle.unwrap_or(self.cycle.max_cycles)
@@ -159,35 +186,21 @@ impl Contact<'_> {
         }
     }
 
-    /// The same, whose direct search is not followed by a march.
-    pub(in crate::sweep) fn searching_alone(self) -> Self {
-        Self {
-            marches_at_last: self.cycle.method == Method::March,
-            ..self
-        }
-    }
-
-    /// The stabilised cycle in each of these numbers of steps, every one searched from the memory of the last. Only the last has to
-    /// succeed.
-    pub(in crate::sweep) fn in_steps(
+    /// The stabilised cycle in each of these numbers of steps, every one searched from the memory of the last. They serve the error bars of the
+    /// one in more steps; what fails in fewer steps may succeed in more.
+    pub fn in_fewer_steps(
         &self,
         engine: &mut dyn Engine,
         steps: &[usize],
     ) -> Result<Vec<(usize, Stabilised)>, CaseError> {
+        let contact = Contact {
+            wanted: self.wanted.min(Wanted::Numbers),
+            ..*self
+        };
         let mut solved: Vec<(usize, Stabilised)> = Vec::with_capacity(steps.len());
         for &count in steps {
-            let coarser = solved.last().filter(|(_, cycle)| cycle.result.is_some());
-            let start = coarser.map(|(_, cycle)| cycle.memory.clone());
-            let wanted = match Some(&count) == steps.last() {
-                true => self.wanted,
-                false => self.wanted.min(Wanted::Numbers),
-            };
-            let contact = Contact { wanted, ..*self };
-            let cycle = match contact.stabilise(engine, count, start) {
-                // What fails in fewer steps may succeed in more.
-                Err(error) if error.may_be_of_the_resolution() && Some(&count) != steps.last() => {
-                    continue;
-                }
+            let cycle = match contact.stabilise(engine, count, start_of(&solved)) {
+                Err(error) if error.may_be_of_the_resolution() => continue,
                 ended => ended?,
             };
             let is_found = cycle.result.is_some();
@@ -197,6 +210,28 @@ impl Contact<'_> {
             }
         }
         Ok(solved)
+    }
+
+    /// The stabilised cycle in the most steps, and those in fewer before it, by searches that no march follows; `None` where one of them
+    /// does not find it.
+    pub fn by_search_alone(
+        &self,
+        engine: &mut dyn Engine,
+        fewer: &[usize],
+        steps: usize,
+    ) -> Result<Option<InSteps>, CaseError> {
+        let contact = Contact {
+            marches_at_last: self.cycle.method == Method::March,
+            ..*self
+        };
+        let coarser = contact.in_fewer_steps(engine, fewer)?;
+        let is_found = |(_, cycle): &(usize, Stabilised)| cycle.result.is_some();
+        if !contact.marches_at_last && coarser.last().is_some_and(|cycle| !is_found(cycle)) {
+            return Ok(None);
+        }
+        let finest = contact.stabilise(engine, steps, start_of(&coarser))?;
+        let all_found = coarser.len() == fewer.len() && coarser.iter().all(is_found);
+        Ok((all_found && finest.result.is_some()).then_some((coarser, finest)))
     }
 
     /// The stabilised cycle in `steps` steps, searched from `start` where one is given.
@@ -365,4 +400,13 @@ impl Contact<'_> {
         }
         Ok(marched)
     }
+}
+
+/// The stabilised cycles in fewer steps, and the one in the most.
+pub(super) type InSteps = (Vec<(usize, Stabilised)>, Stabilised);
+
+/// Where the search in more steps begins: the memory of the last cycle found in fewer.
+pub(super) fn start_of(coarser: &[(usize, Stabilised)]) -> Option<Vec<f64>> {
+    let (_, last) = coarser.last()?;
+    last.result.as_ref().map(|_| last.memory.clone())
 }

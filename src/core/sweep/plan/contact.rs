@@ -6,7 +6,7 @@ use crate::indenter::Indenter;
 use crate::sweep::plan::adhesion::AdhesionPlan;
 use crate::sweep::plan::check::PlanError;
 use crate::sweep::plan::layer::LayerPlan;
-use crate::sweep::plan::{SolverPlan, resolved};
+use crate::sweep::plan::resolved;
 
 /// A contact of bodies of which so much is known as `M` says: a [`crate::material::Material`] of a sweep, a
 /// [`crate::sweep::plan::body_material::BodyMaterial`] of a history, [`crate::identify::Sought`] of an identification.
@@ -39,11 +39,6 @@ impl<M> ContactPlan<M> {
             indenter: Arc::clone(&self.indenter),
             adhesion: self.adhesion,
         }
-    }
-
-    /// The engine that suits it, everything else of the solver at its default.
-    pub fn default_solver(&self) -> SolverPlan {
-        SolverPlan::of(self.indenter.as_ref(), self.layer)
     }
 
     /// Checks every value that is not checked where it is made.

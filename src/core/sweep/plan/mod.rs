@@ -65,14 +65,23 @@ pub struct Case {
 impl SweepPlan {
     /// A sweep without frequencies and title, everything else at its default.
     pub fn new(material: Material, indenter: Arc<dyn Indenter>, drive: HarmonicDrive) -> Self {
-        Self::of(ContactPlan::new(Arc::new(material), indenter), drive)
+        let solver = SolverPlan::of(indenter.as_ref(), None);
+        Self::of(
+            ContactPlan::new(Arc::new(material), indenter),
+            solver,
+            drive,
+        )
     }
 
-    /// The same of a contact that is known.
-    pub fn of(contact: ContactPlan<Arc<Material>>, drive: HarmonicDrive) -> Self {
+    /// The same of a contact that is known, solved like this.
+    pub fn of(
+        contact: ContactPlan<Arc<Material>>,
+        solver: SolverPlan,
+        drive: HarmonicDrive,
+    ) -> Self {
         Self {
             title: String::new(),
-            solver: contact.default_solver(),
+            solver,
             base: Condition {
                 values: AxisValues::default(),
                 contact,

@@ -32,14 +32,19 @@ impl ScenarioPlan {
         indenter: Arc<dyn Indenter>,
         drive: SegmentedDrive,
     ) -> Self {
-        Self::of(ContactPlan::new(material.into(), indenter), drive)
+        let solver = SolverPlan::of(indenter.as_ref(), None);
+        Self::of(ContactPlan::new(material.into(), indenter), solver, drive)
     }
 
-    /// The same of a contact that is known.
-    pub fn of(contact: ContactPlan<BodyMaterial>, drive: SegmentedDrive) -> Self {
+    /// The same of a contact that is known, solved like this.
+    pub fn of(
+        contact: ContactPlan<BodyMaterial>,
+        solver: SolverPlan,
+        drive: SegmentedDrive,
+    ) -> Self {
         Self {
             title: String::new(),
-            solver: contact.default_solver(),
+            solver,
             contact,
             drive,
             step_s: None,

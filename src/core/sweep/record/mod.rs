@@ -254,23 +254,6 @@ impl CaseRecord {
         material_error::band(result.analysis.energy_loss_j, &result.replica_losses_j)
     }
 
-    /// Takes a result back that is not made of finite numbers, and what else no record can hold.
-    pub(in crate::sweep) fn refuse_what_is_not_finite(&mut self) {
-        if self.result.as_ref().is_some_and(|r| !r.is_finite()) {
-            self.result = None;
-            self.status = Status::Failed;
-            self.message = Some(
-                "the result is not made of finite numbers: load, lengths, moduli or frequency are so large or small that what is computed \
-                 of them leaves the range of floating-point numbers"
-                    .to_owned(),
-            );
-        }
-        self.steady_distance = self.steady_distance.filter(|distance| distance.is_finite());
-        if !self.domain_half_width_m.is_finite() {
-            self.domain_half_width_m = 0.0;
-        }
-    }
-
     /// The same with its numbers alone.
     #[must_use]
     pub fn without_cycle(&self) -> Self {
@@ -301,8 +284,12 @@ impl CaseResult {
         self.cycle.is_held().then_some(&self.cycle)
     }
 
+    /// Why a result whose numbers are not all finite is none.
+    pub(in crate::sweep) const NOT_FINITE: &str = "the result is not made of finite numbers: load, lengths, moduli or frequency are so large or \
+         small that what is computed of them leaves the range of floating-point numbers";
+
     /// Whether all its numbers are finite.
-    fn is_finite(&self) -> bool {
+    pub(in crate::sweep) fn is_finite(&self) -> bool {
         let numbers = Quantity::ALL.into_iter().filter_map(|quantity| {
             let error = self.errors.as_ref().and_then(|errors| errors.of(quantity));
             Some(quantity.of(self)? + error.unwrap_or(0.0))
