@@ -6,11 +6,12 @@
 //! node for one, and says nothing of the error there. So every row takes the largest difference of the rows around it that no
 //! jump of the drive parts from it.
 
+use std::collections::HashMap;
+
 use crate::drive::Fineness;
-use crate::numerics::polynomial::richardson;
 use crate::sweep::history::HistoryRow;
 use crate::sweep::plan::{EngineKind, SolverPlan};
-use crate::sweep::record::error_bars::{ROUNDING, SAFETY};
+use crate::sweep::record::error_bars::{Ladder, Pair, ROUNDING, SAFETY};
 
 /// Estimated errors of a row, absolute; `None` where the value is undefined or the estimate is missing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -21,32 +22,12 @@ pub struct RowErrors {
     pub peak_pressure_pa: Option<f64>,
 }
 
-/// Where the differences that tell the error of one kind come from: two pairs of resolutions, finer first, and how many times
-/// finer the finer one of each is.
-struct Ladder {
-    pairs: [(usize, usize); 2],
-    ratios: [f64; 2],
-}
-
-impl Ladder {
-    /// The error that the differences of both pairs tell.
-    fn error(&self, first: f64, second: Option<f64>, orders: (f64, f64)) -> f64 {
-        let [ratio, second_ratio] = self.ratios;
-        if self.pairs[0] == self.pairs[1] {
-            // The history is the coarser of the two, at the lowest order.
-            return first * ratio / (ratio - 1.0);
-        }
-        let second = second.map(|second| (second, second_ratio));
-        richardson(first, ratio, second, orders)
-    }
-}
-
 /// What tells the errors of a history, which is the first of the resolutions.
 pub(in crate::sweep) struct Plan {
     /// How fine the steps are, and springs, or cells along the longer side.
     pub(in crate::sweep) resolutions: Vec<(Fineness, usize)>,
-    /// In steps, and in nodes.
-    ladders: [Ladder; 2],
+    /// In steps, and in nodes, by places among the resolutions.
+    ladders: [Ladder<usize>; 2],
     node_orders: [(f64, f64); 4],
 }
 
@@ -106,9 +87,17 @@ impl Plan {
     ) -> Self {
         let [all, fewer, least] = nodes;
         let full = Fineness::FULL;
-        let (resolutions, steps, nodes) = if can_be_coarser {
+        let pair = |finer, coarser, ratio| Pair {
+            finer,
+            coarser,
+            ratio,
+        };
+        let in_nodes = |places: [usize; 3]| Ladder {
+            first: pair(places[0], places[1], all as f64 / fewer as f64),
+            second: Some(pair(places[1], places[2], fewer as f64 / least as f64)),
+        };
+        let (resolutions, ladders) = if can_be_coarser {
             let (half, quarter) = (Fineness::EveryNth(2), Fineness::EveryNth(4));
-            // What nodes do to half the steps is what they do to all of them, at half the cost.
             let resolutions = vec![
                 (full, all),
                 (half, all),
@@ -116,7 +105,12 @@ impl Plan {
                 (half, fewer),
                 (half, least),
             ];
-            (resolutions, [(0, 1), (1, 2)], [(1, 3), (3, 4)])
+            let in_steps = Ladder {
+                first: pair(0, 1, 2.0),
+                second: Some(pair(1, 2, 2.0)),
+            };
+            // What nodes do to half the steps is what they do to all of them, at half the cost.
+            (resolutions, [in_steps, in_nodes([1, 3, 4])])
         } else {
             let resolutions = vec![
                 (full, all),
@@ -124,20 +118,17 @@ impl Plan {
                 (full, fewer),
                 (full, least),
             ];
-            (resolutions, [(1, 0); 2], [(0, 2), (2, 3)])
+            // The history is the coarser of the two. At the lowest order its error is twice the difference, as that of the finer one of a
+            // pair with this ratio.
+            let in_steps = Ladder {
+                first: pair(1, 0, 1.5),
+                second: None,
+            };
+            (resolutions, [in_steps, in_nodes([0, 2, 3])])
         };
         Self {
             resolutions,
-            ladders: [
-                Ladder {
-                    pairs: steps,
-                    ratios: [2.0; 2],
-                },
-                Ladder {
-                    pairs: nodes,
-                    ratios: [all as f64 / fewer as f64, fewer as f64 / least as f64],
-                },
-            ],
+            ladders,
             node_orders: match engine {
                 EngineKind::Axisymmetric => SPRING_ORDERS,
                 EngineKind::HalfSpace => CELL_ORDERS,
@@ -145,18 +136,20 @@ impl Plan {
         }
     }
 
-    /// The error of a value of the history, from the differences of each ladder's pairs; `None` without those of the finer pairs.
+    /// The error of a value of the history, from the difference that each pair of levels makes to it; `None` without those of the finer
+    /// pairs.
     fn error(
         &self,
         value: f64,
         node_orders: (f64, f64),
-        difference: impl Fn(usize, usize) -> Option<f64>,
+        difference: impl Fn(&Pair<usize>) -> Option<f64>,
     ) -> Option<f64> {
-        let of = |ladder: usize, orders| {
-            let (first, second) = (difference(ladder, 0)?, difference(ladder, 1));
-            Some(self.ladders[ladder].error(first, second, orders))
+        let of = |ladder: &Ladder<usize>, orders| {
+            let second = ladder.second.as_ref().and_then(&difference);
+            Some(ladder.error(difference(&ladder.first)?, second, orders))
         };
-        let (steps, nodes) = (of(0, STEP_ORDERS)?, of(1, node_orders)?);
+        let [in_steps, in_nodes] = &self.ladders;
+        let (steps, nodes) = (of(in_steps, STEP_ORDERS)?, of(in_nodes, node_orders)?);
         Some(SAFETY * (steps + nodes) + ROUNDING * value.abs())
     }
 
@@ -164,9 +157,8 @@ impl Plan {
     /// none.
     pub(in crate::sweep) fn error_of_whole(&self, values: &[Option<f64>]) -> Option<f64> {
         let at = |level: usize| values.get(level).copied().flatten();
-        self.error(at(0)?, self.node_orders[1], |ladder, pair| {
-            let (finer, coarser) = self.ladders[ladder].pairs[pair];
-            Some((at(finer)? - at(coarser)?).abs())
+        self.error(at(0)?, self.node_orders[1], |pair| {
+            Some((at(pair.finer)? - at(pair.coarser)?).abs())
         })
     }
 
@@ -178,15 +170,18 @@ impl Plan {
         let stretches = stretches(history.rows);
         let columns = [0, 1, 2, 3].map(|column| {
             let value = VALUES[column];
-            let differences = self.ladders.each_ref().map(|ladder| {
-                ladder.pairs.map(|(finer, coarser)| {
-                    let pair = [followed.get(finer), followed.get(coarser)];
-                    spread(&differences(pair, value, history.rows.len()), &stretches)
-                })
+            let pairs = self.ladders.iter();
+            let pairs = pairs.flat_map(|ladder| [Some(&ladder.first), ladder.second.as_ref()]);
+            let known = pairs.flatten().map(|pair| {
+                let levels = [followed.get(pair.finer), followed.get(pair.coarser)];
+                let differences = differences(levels, value, history.rows.len());
+                ((pair.finer, pair.coarser), spread(&differences, &stretches))
             });
+            let known: HashMap<_, _> = known.collect();
             let error = |(row, values): (usize, &HistoryRow)| {
-                let difference = |ladder: usize, pair: usize| differences[ladder][pair][row];
-                self.error(value(values)?, self.node_orders[column], difference)
+                self.error(value(values)?, self.node_orders[column], |pair| {
+                    known.get(&(pair.finer, pair.coarser))?[row]
+                })
             };
             history
                 .rows

@@ -279,20 +279,33 @@ impl Bar {
     }
 }
 
-/// Two results that differ in one resolution alone.
+/// Two levels that differ in one resolution alone: their results, or their places among levels.
 #[derive(Debug, Clone, Copy)]
-pub struct Pair<'a> {
-    pub finer: &'a CaseResult,
-    pub coarser: &'a CaseResult,
+pub struct Pair<T> {
+    pub finer: T,
+    pub coarser: T,
     /// How many times finer: steps over steps, or nodes over nodes.
     pub ratio: f64,
 }
 
 /// What is known of the error from one resolution: the pair at the result, and, where there is one, the next coarser pair.
 #[derive(Debug, Clone, Copy)]
-pub struct Ladder<'a> {
-    pub first: Pair<'a>,
-    pub second: Option<Pair<'a>>,
+pub struct Ladder<T> {
+    pub first: Pair<T>,
+    pub second: Option<Pair<T>>,
+}
+
+impl<T> Ladder<T> {
+    /// The error of the finest, from the differences of both pairs and the lowest and the highest order believed.
+    pub(in crate::sweep) fn error(
+        &self,
+        first: f64,
+        second: Option<f64>,
+        orders: (f64, f64),
+    ) -> f64 {
+        let ratio = self.second.as_ref().map(|pair| pair.ratio);
+        richardson(first, self.first.ratio, second.zip(ratio), orders)
+    }
 }
 
 /// By what the estimate is multiplied: of 200 random cases, this leaves the true error inside the bar in 95 of 100 and more
@@ -313,8 +326,8 @@ impl ErrorBars {
     /// differences that other materials make which the data do not tell from this one. The order is the highest believed.
     pub fn estimate(
         result: &CaseResult,
-        (steps, order_in_steps): (&Ladder<'_>, f64),
-        (nodes, believed): (&Ladder<'_>, InNodes),
+        (steps, order_in_steps): (&Ladder<&CaseResult>, f64),
+        (nodes, believed): (&Ladder<&CaseResult>, InNodes),
         steady_distance: f64,
         alternatives: &[(&CaseResult, &CaseResult)],
     ) -> Self {
@@ -372,17 +385,16 @@ impl ErrorBars {
 }
 
 /// Error of the finest value of a ladder; `None` where a value is absent.
-fn error(quantity: Quantity, ladder: &Ladder<'_>, orders: (f64, f64)) -> Option<f64> {
-    let difference = |pair: &Pair<'_>| {
+fn error(quantity: Quantity, ladder: &Ladder<&CaseResult>, orders: (f64, f64)) -> Option<f64> {
+    let difference = |pair: &Pair<&CaseResult>| {
         let (finer, coarser) = (quantity.of(pair.finer)?, quantity.of(pair.coarser)?);
         Some((finer - coarser).abs())
     };
-    let first = difference(&ladder.first)?;
     let second = match &ladder.second {
-        Some(pair) => Some((difference(pair)?, pair.ratio)),
+        Some(pair) => Some(difference(pair)?),
         None => None,
     };
-    Some(richardson(first, ladder.first.ratio, second, orders))
+    Some(ladder.error(difference(&ladder.first)?, second, orders))
 }
 
 #[cfg(test)]
