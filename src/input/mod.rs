@@ -21,7 +21,7 @@
 //! frequency = ["1 mHz"]
 //! "#;
 //! let plan = sweep_file::plan(&Document::parse("sweep.toml", text)?)?;
-//! assert_eq!(plan.drive.mean(), 10.0);
+//! assert_eq!(plan.base.drive.mean(), 10.0);
 //!
 //! let wrong = text.replace("mm", "mn");
 //! let refused = sweep_file::plan(&Document::parse("sweep.toml", &wrong)?).unwrap_err();

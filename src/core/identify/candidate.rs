@@ -1,9 +1,9 @@
 //! Which number of branches the data ask for.
 
-use crate::identify::least_squares::{Problem, minimise};
 use crate::identify::noise::{Knowledge, is_missed};
 use crate::identify::selection::{CLOSELY, Linearised};
 use crate::identify::series::Point;
+use crate::numerics::levenberg_marquardt::{Problem, minimise};
 
 /// By how much a criterion must fall for one branch more: odds of seven to one.
 const EVIDENCE: f64 = 4.0;

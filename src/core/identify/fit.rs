@@ -6,13 +6,13 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::identify::candidate::{Candidate, candidates, choose, leave_out_outlier};
 use crate::identify::identified::{CellError, Identified, judged};
-use crate::identify::least_squares::{Ending, Problem, minimise};
 use crate::identify::model::Model;
 use crate::identify::noise::Knowledge;
 use crate::identify::selection::{Linearised, residuals};
 use crate::identify::series::Point;
 use crate::identify::{IdentifyError, IdentifyPlan, MOST_BRANCHES};
 use crate::material::Relaxation;
+use crate::numerics::levenberg_marquardt::{Ending, Problem, minimise};
 use crate::sweep::plan::EngineKind;
 
 /// Step of an unknown for derivatives of the exact model: wide beside what springs and steps leave of roughness in it.
@@ -216,6 +216,8 @@ impl Exact<'_> {
 }
 
 impl Problem for Exact<'_> {
+    type Unknowns = Point;
+
     fn residuals(&self, point: &Point) -> Option<DVector<f64>> {
         let series = point.relaxation().ok()?;
         self.scaled(&self.model.numbers(&series).ok()?, point)

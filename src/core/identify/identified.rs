@@ -4,7 +4,6 @@ use nalgebra::DMatrix;
 
 use crate::identify::candidate::Candidate;
 use crate::identify::data::Number;
-use crate::identify::least_squares::Solution;
 use crate::identify::model::Model;
 use crate::identify::noise::Knowledge;
 use crate::identify::selection::Linearised;
@@ -12,6 +11,7 @@ use crate::identify::series::{Point, name};
 use crate::identify::uncertainty::{Directions, moduli};
 use crate::identify::{IdentifyError, UNDETERMINED};
 use crate::material::Relaxation;
+use crate::numerics::levenberg_marquardt::Solution;
 
 /// The largest exponent of a confidence factor that is written as a number.
 const WIDEST: f64 = 60.0;
@@ -114,7 +114,7 @@ pub struct Identified {
 pub(super) fn judged(
     (model, linearised): (&Model<'_>, &Linearised<'_>),
     (candidates, start): (Vec<Candidate>, Point),
-    found: Solution,
+    found: Solution<Point>,
     derivatives: &DMatrix<f64>,
 ) -> Result<Identified, IdentifyError> {
     let measured = &linearised.plan.measurements;

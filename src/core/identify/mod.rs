@@ -13,7 +13,7 @@
 //!
 //! 1. The linearised contact (`linear`) gives every number from E*(omega) and the equilibrium modulus at once. Branches are
 //!    added one by one, each tried at many times (`selection`), and all are refined together by the method of Levenberg and
-//!    Marquardt (`least_squares`).
+//!    Marquardt ([`crate::numerics::levenberg_marquardt`]).
 //! 2. The exact model (`model`) is solved for the best series. Its ratio to the linearised one is a factor for each number,
 //!    which changes little with the material: with the factors the search is repeated until they stand still.
 //! 3. The series is refined on the exact model itself, with its own derivatives.
@@ -49,7 +49,6 @@ pub mod data;
 mod fit;
 mod history;
 mod identified;
-mod least_squares;
 mod linear;
 mod model;
 mod noise;

@@ -6,12 +6,12 @@ use num_complex::Complex;
 use crate::drive::Control;
 use crate::identify::data::{Datum, Measurements, Number};
 use crate::identify::history::LinearHistory;
-use crate::identify::least_squares::{Ending, Problem, Solution, minimise};
 use crate::identify::linear::LinearCycle;
 use crate::identify::model::Model;
 use crate::identify::noise::Noise;
 use crate::identify::series::{Limits, Point};
 use crate::identify::{IdentifyError, IdentifyPlan};
+use crate::numerics::levenberg_marquardt::{Ending, Problem, Solution, minimise};
 use crate::sweep::record::error_bars::Quantity;
 
 /// Step of an unknown for the derivatives of the linearised contact, which is smooth.
@@ -267,7 +267,7 @@ impl Linearised<'_> {
         let rough = starts
             .iter()
             .filter_map(|start| minimise(self, start, ROUGHLY));
-        let mut rough: Vec<Solution> = rough.collect();
+        let mut rough: Vec<Solution<Point>> = rough.collect();
         rough.sort_by(|a, b| a.squares().total_cmp(&b.squares()));
         let close = rough.iter().take(KEPT);
         let close = close.filter_map(|start| minimise(self, &start.unknowns, CLOSELY));
@@ -289,6 +289,8 @@ impl Linearised<'_> {
 }
 
 impl Problem for Linearised<'_> {
+    type Unknowns = Point;
+
     fn residuals(&self, point: &Point) -> Option<DVector<f64>> {
         let scaled = self.relative(point).into_iter().zip(&self.noise.relative);
         residuals(scaled.map(|(r, error)| r / error), point)

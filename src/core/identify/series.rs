@@ -13,6 +13,18 @@ const YIELDING: f64 = 0.1;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Point(pub(super) Vec<f64>);
 
+impl From<Vec<f64>> for Point {
+    fn from(logarithms: Vec<f64>) -> Self {
+        Self(logarithms)
+    }
+}
+
+impl AsRef<[f64]> for Point {
+    fn as_ref(&self) -> &[f64] {
+        &self.0
+    }
+}
+
 /// How far unknowns may go.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Limits {

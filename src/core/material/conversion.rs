@@ -22,10 +22,10 @@
 //! Journal on Matrix Analysis and Applications 15 (1994) 1266), which make the result the exact
 //! reciprocal of a model whose times differ from the given ones only by rounding.
 
-use super::branches::Branch;
 use super::creep::{Creep, CreepBranch};
 use super::error::{MaterialError, in_range};
 use super::relaxation::{Relaxation, RelaxationBranch};
+use super::spectrum::Branch;
 
 /// Retardation times and compliances of a generalised Maxwell model.
 ///

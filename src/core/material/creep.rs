@@ -12,11 +12,11 @@
 
 use num_complex::Complex;
 
-use super::branches::merged;
 use super::conversion;
 use super::error::{MaterialError, in_range, non_negative, positive};
 use super::harmonic::{Debye, reciprocal};
 use super::relaxation::Relaxation;
+use super::spectrum::merged;
 
 /// One Kelvin element of the series: a spring and a dashpot side by side.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]

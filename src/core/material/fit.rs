@@ -52,6 +52,7 @@ mod search;
 use rayon::prelude::*;
 
 use super::random::Noise;
+use super::spectrum::Series;
 use super::tabulated::Tabulated;
 use super::{
     Compressibility, Creep, CreepBranch, Material, MaterialError, MaterialFunction, Relaxation,
@@ -60,7 +61,7 @@ use super::{
 use crate::numerics::nnls::NnlsError;
 use report::FAR_FROM_EQUILIBRIUM;
 pub use report::{FitRemark, FitReport, Misfit};
-use search::{Open, Search, Series};
+use search::{Open, Search};
 
 /// What a parameter must lower the sum of squares by, in units of the variance of the noise (H. Akaike, IEEE Transactions on
 /// Automatic Control 19 (1974) 716).

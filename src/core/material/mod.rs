@@ -41,7 +41,6 @@ pub mod library;
 pub mod sampled;
 pub mod tabulated;
 
-mod branches;
 mod conversion;
 mod creep;
 mod error;
@@ -50,6 +49,7 @@ mod harmonic;
 mod peaks;
 mod random;
 mod relaxation;
+mod spectrum;
 #[cfg(test)]
 mod synthetic;
 

@@ -12,11 +12,11 @@
 
 use num_complex::Complex;
 
-use super::branches::merged;
 use super::conversion;
 use super::creep::Creep;
 use super::error::{MaterialError, in_range, non_negative, positive};
 use super::harmonic::{Debye, reciprocal};
+use super::spectrum::merged;
 
 /// One Maxwell element of the series: a spring and a dashpot in line.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]

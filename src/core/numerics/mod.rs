@@ -1,5 +1,8 @@
-//! Methods that know nothing of contact or materials, each once: roots, extremes, polynomials, order, non-negative least squares.
+//! Methods that know nothing of contact or materials, each once: grids, roots, extremes, polynomials, order, least squares of
+//! any unknowns and of unknowns that are not negative.
 
+pub mod grid;
+pub mod levenberg_marquardt;
 pub mod nnls;
 pub mod order;
 pub mod polynomial;

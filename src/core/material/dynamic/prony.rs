@@ -21,15 +21,13 @@
 //! square per degree of freedom), in units of this noise: about one for consistent data, whatever their noise.
 
 mod rows;
-mod selection;
 
 use super::DynamicPoint;
-use crate::material::branches::Branch;
+use crate::material::spectrum::{Branch, Search, Series};
 use crate::material::{MaterialError, Relaxation, RelaxationBranch};
 use crate::numerics::nnls::NnlsError;
 pub(super) use rows::errors_known;
-use rows::{Part, Rows, SPECTRUM, Series};
-use selection::Selection;
+use rows::{Part, Rows, SPECTRUM};
 
 /// By how much chi squared may be higher for a series that fits about as well (two standard deviations).
 pub const ALLOWED: f64 = 4.0;
@@ -91,17 +89,27 @@ pub fn fit(points: &[DynamicPoint], branches: Option<usize>) -> Result<PronyFit,
     let (rows, spectrum) = weighed(points)?;
     let spectrum = rest(&rows, spectrum)?;
     let limits_s = limits(&rows, BEYOND);
-    let selection = Selection {
-        rows: &rows,
+    let linear = rows.linear(spectrum.constant > 0.0);
+    let score = |series: &Series| corrected_akaike(&rows, series);
+    let search = Search {
+        linear: &linear,
         limits_s,
+        score: &score,
+        slack: 0.0,
+        frees_constant: false,
     };
+    let merged = spectrum.runs_merged(SPECTRUM);
     let series = match branches {
-        None => selection.fewest(&spectrum),
+        None => search.closely(&search.fewest(&merged)?)?,
         Some(branches) => {
             let solid = spectrum.constant > 0.0;
             let constant = if solid { rows.lowest_storage() } else { 0.0 };
-            let even = rows.guess(branches, limits_s, constant);
-            selection.at_most(&spectrum, &even, branches)
+            let even = search.closely(&rows.guess(branches, limits_s, constant))?;
+            let reduced = search.at_most(&merged, branches)?;
+            match linear.squares(&even) < linear.squares(&reduced) {
+                true => even,
+                false => reduced,
+            }
         }
     };
     let relaxation = rows.relaxation(&series)?;
@@ -119,6 +127,17 @@ pub fn fit(points: &[DynamicPoint], branches: Option<usize>) -> Result<PronyFit,
         window_rad_per_s: rows.window(),
         kramers_kronig: kramers_kronig(points)?,
     })
+}
+
+/// The criterion of H. Akaike with the correction for few data (C. M. Hurvich and C.-L. Tsai, Biometrika 76 (1989) 297),
+/// the noise being known: lower is better.
+fn corrected_akaike(rows: &Rows, series: &Series) -> f64 {
+    let (count, parameters) = (rows.count() as f64, series.parameters() as f64);
+    let free = count - parameters - 1.0;
+    if free <= 0.0 {
+        return f64::INFINITY;
+    }
+    rows.chi_squared(series) + 2.0 * parameters * (1.0 + (parameters + 1.0) / free)
 }
 
 /// The best spectrum of any number of branches on five times per decade, which lie this share of a step beyond those of the limits:

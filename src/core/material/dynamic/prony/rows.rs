@@ -1,19 +1,20 @@
 //! The least squares problem of a series through storage and loss modulus: rows in units of the noise, columns per branch time.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::PronyFit;
-use crate::material::branches::Branch;
 use crate::material::dynamic::DynamicPoint;
 use crate::material::harmonic::Debye;
-use crate::numerics::nnls::{NnlsError, nnls};
+use crate::material::spectrum::{Branch, Linear, Series};
+use crate::numerics::grid;
+use crate::numerics::nnls::NnlsError;
 
 /// Least relative noise: smaller misfits count as none, however clean the data are.
 pub(super) const NOTICEABLE: f64 = 1e-4;
 
 /// Times per decade of the spectrum that says what the data determine, and most times in any grid.
 pub(super) const SPECTRUM: f64 = 10.0;
-const MOST_TIMES: f64 = 600.0;
+const MOST_TIMES: usize = 600;
 
 /// Degrees of freedom that the noise of both moduli together lends to each of them, so that a few points of one that are met
 /// exactly do not count as free of noise.
@@ -21,43 +22,6 @@ const LENT: f64 = 2.0;
 
 /// Largest correction of the size of a point by the spectrum.
 const CORRECTION: f64 = 3.0;
-
-/// `constant + sum of modulus * Debye(omega * time)`, in units of the reference modulus of the [`Rows`].
-#[derive(Debug, Clone, PartialEq)]
-pub(in crate::material::dynamic) struct Series {
-    pub(in crate::material::dynamic) constant: f64,
-    /// Ascending in time.
-    pub(in crate::material::dynamic) branches: Vec<Branch>,
-}
-
-impl Series {
-    /// The same with other branches.
-    pub(super) fn with(&self, branches: Vec<Branch>) -> Self {
-        Self { branches, ..*self }
-    }
-
-    /// Values chosen to fit: strengths and times.
-    pub(super) fn parameters(&self) -> usize {
-        usize::from(self.constant > 0.0) + 2 * self.branches.len()
-    }
-
-    /// Values of the linear problem alone.
-    pub(super) fn strengths(&self) -> usize {
-        usize::from(self.constant > 0.0) + self.branches.len()
-    }
-
-    /// Storage and loss modulus.
-    pub(super) fn moduli(&self, omega: f64) -> Both {
-        let start = [self.constant, 0.0];
-        self.branches.iter().fold(start, |[storage, loss], branch| {
-            let (modulus, debye) = (branch.strength, Debye::at(omega * branch.time_s));
-            [
-                storage + modulus * debye.frozen,
-                loss + modulus * debye.loss,
-            ]
-        })
-    }
-}
 
 /// Storage and loss modulus of one point, or anything else that both have.
 pub(super) type Both = [f64; 2];
@@ -160,7 +124,7 @@ impl Rows {
     /// values that happen to be low would weigh the more.
     pub(super) fn with_noise_from(&self, spectrum: &Series) -> Self {
         let mut rows = self.clone();
-        let fitted: Vec<Both> = self.omegas.iter().map(|&w| spectrum.moduli(w)).collect();
+        let fitted: Vec<Both> = self.omegas.iter().map(|&w| moduli(spectrum, w)).collect();
         rows.noise = [1.0; 2];
         rows.set_deviations(&fitted);
         rows.noise = rows.noise_beside(spectrum, self.leverage(spectrum));
@@ -183,8 +147,8 @@ impl Rows {
 
     /// Traces of the parts of the projection on the columns in use that belong to storage and loss modulus.
     fn leverage(&self, spectrum: &Series) -> Both {
-        let times: Vec<f64> = spectrum.branches.iter().map(|b| b.time_s).collect();
-        let (matrix, _) = self.equations(&times, (spectrum.constant > 0.0, 0.0));
+        let linear = self.linear(spectrum.constant > 0.0);
+        let matrix = linear.matrix(&spectrum.times_s());
         if matrix.ncols() == 0 || matrix.ncols() > matrix.nrows() {
             return [0.0; 2];
         }
@@ -197,7 +161,7 @@ impl Rows {
     /// of freedom than this left.
     pub(super) fn with_noise_of_each(&self, alone: &[Series; 2], fewest: usize) -> Option<Self> {
         let mut rows = self.clone();
-        let size = |omega: &f64| [0, 1].map(|part| alone[part].moduli(*omega)[part]);
+        let size = |omega: &f64| [0, 1].map(|part| moduli(&alone[part], *omega)[part]);
         let sizes: Vec<Both> = self.omegas.iter().map(size).collect();
         rows.set_deviations(&sizes);
         for (part, spectrum) in alone.iter().enumerate() {
@@ -244,7 +208,7 @@ impl Rows {
     pub(super) fn squares(&self, series: &Series) -> Both {
         let mut sums = [0.0; 2];
         for (index, &omega) in self.omegas.iter().enumerate() {
-            let (moduli, values) = (series.moduli(omega), self.values[index]);
+            let (moduli, values) = (moduli(series, omega), self.values[index]);
             let deviations = self.deviations[index];
             for part in 0..2 {
                 sums[part] += ((moduli[part] - values[part]) / deviations[part]).powi(2);
@@ -264,74 +228,64 @@ impl Rows {
     }
 
     /// Times evenly spaced in their logarithm, so many per decade, the limits among them.
-    pub(super) fn grid(limits_s: (f64, f64), per_decade: f64) -> Vec<f64> {
-        let steps = ((limits_s.1 / limits_s.0).log10() * per_decade)
-            .ceil()
-            .clamp(1.0, MOST_TIMES);
-        Self::times((0..=steps as usize).map(|i| i as f64 / steps), limits_s)
-    }
-
-    /// Times at these shares of the way between the limits, in the logarithm.
-    fn times(shares: impl Iterator<Item = f64>, (shortest, longest): (f64, f64)) -> Vec<f64> {
-        shares
-            .map(|share| shortest.powf(1.0 - share) * longest.powf(share))
-            .collect()
+    pub(super) fn grid((shortest, longest): (f64, f64), per_decade: f64) -> Vec<f64> {
+        grid::logarithmic(shortest, longest, per_decade, MOST_TIMES)
     }
 
     /// A first guess of a series of so many branches, evenly spaced: each has the loss modulus next to one over its time.
     pub(super) fn guess(&self, branches: usize, limits_s: (f64, f64), constant: f64) -> Series {
-        let shares = (0..branches).map(|i| (i as f64 + 0.5) / branches as f64);
         let loss = |time_s: f64| {
             let distance = |omega: f64| (omega * time_s).ln().abs();
             let both = self.omegas.iter().zip(&self.values);
             let nearest = both.min_by(|l, r| distance(*l.0).total_cmp(&distance(*r.0)));
             nearest.map_or(0.0, |(_, values)| values[1])
         };
-        let times = Self::times(shares, limits_s).into_iter();
-        let branch = |time_s| Branch {
+        // In the middle of as many equal parts.
+        let times = grid::in_steps(limits_s.0, limits_s.1, 2 * branches);
+        let branch = |&time_s: &f64| Branch {
             strength: loss(time_s),
             time_s,
         };
         Series {
             constant,
-            branches: times.map(branch).collect(),
+            branches: times.iter().skip(1).step_by(2).map(branch).collect(),
+            flow_per_s: 0.0,
         }
     }
 
-    /// The linear problem of the moduli at these times: columns and right side.
-    fn equations(
-        &self,
-        times_s: &[f64],
-        (free, held): (bool, f64),
-    ) -> (DMatrix<f64>, DVector<f64>) {
-        let first = usize::from(free);
-        let mut matrix = DMatrix::zeros(self.count(), first + times_s.len());
-        let mut right = DVector::zeros(self.count());
-        let loss_from = match self.part {
-            Part::Both => self.omegas.len(),
-            Part::Storage | Part::Loss => 0,
+    /// The linear problem of the moduli that take part, those of storage first; with an equilibrium modulus where one is allowed.
+    pub(in crate::material::dynamic) fn linear(&self, has_constant: bool) -> Linear<'_> {
+        let parts = match self.part {
+            Part::Both => 0..2,
+            Part::Storage => 0..1,
+            Part::Loss => 1..2,
         };
-        for (point, &omega) in self.omegas.iter().enumerate() {
-            let deviations = self.deviations[point];
-            let (storage, loss) = (point, loss_from + point);
-            let basis = times_s.iter().map(|time_s| Debye::at(omega * time_s));
-            if self.part != Part::Loss {
-                right[storage] = (self.values[point][0] - held) / deviations[0];
-                if free {
-                    matrix[(storage, 0)] = 1.0 / deviations[0];
+        let rows = parts.flat_map(|part| (0..self.omegas.len()).map(move |point| (point, part)));
+        let rows: Vec<(usize, usize)> = rows.collect();
+        let deviations = rows
+            .iter()
+            .map(|&(point, part)| self.deviations[point][part]);
+        let scales: Vec<f64> = deviations.map(f64::recip).collect();
+        let scaled = |value: &dyn Fn(usize, usize) -> f64| {
+            let values = rows.iter().zip(&scales);
+            let values = values.map(|(&(point, part), scale)| value(point, part) * scale);
+            DVector::from_iterator(rows.len(), values)
+        };
+        Linear {
+            values: scaled(&|point, part| self.values[point][part]),
+            constant: scaled(&|_, part| if part == 0 { 1.0 } else { 0.0 }),
+            flow: None,
+            has_constant,
+            scales,
+            basis: Box::new(move |row, time_s| {
+                let (point, part) = rows[row];
+                let debye = Debye::at(self.omegas[point] * time_s);
+                match part {
+                    0 => [debye.frozen, debye.frozen_slope()],
+                    _ => [debye.loss, debye.loss_slope()],
                 }
-                for (place, debye) in basis.clone().enumerate() {
-                    matrix[(storage, first + place)] = debye.frozen / deviations[0];
-                }
-            }
-            if self.part != Part::Storage {
-                right[loss] = self.values[point][1] / deviations[1];
-                for (place, debye) in basis.enumerate() {
-                    matrix[(loss, first + place)] = debye.loss / deviations[1];
-                }
-            }
+            }),
         }
-        (matrix, right)
     }
 
     /// The best moduli at these times, none negative; with an equilibrium modulus where one is allowed, and `held` as part of
@@ -341,14 +295,21 @@ impl Rows {
         times_s: &[f64],
         (free, held): (bool, f64),
     ) -> Result<Series, NnlsError> {
-        let (matrix, right) = self.equations(times_s, (free, held));
-        let first = usize::from(free);
-        let strengths = nnls(&matrix, &right)?;
-        let branches = strengths.iter().skip(first).zip(times_s);
-        let branches = branches.map(|(&strength, &time_s)| Branch { strength, time_s });
-        Ok(Series {
-            constant: held + if free { strengths[0] } else { 0.0 },
-            branches: branches.filter(|branch| branch.strength > 0.0).collect(),
-        })
+        self.linear(free).strengths(times_s, held)
     }
+}
+
+/// Storage and loss modulus of a series.
+fn moduli(series: &Series, omega: f64) -> Both {
+    let start = [series.constant, 0.0];
+    series
+        .branches
+        .iter()
+        .fold(start, |[storage, loss], branch| {
+            let (modulus, debye) = (branch.strength, Debye::at(omega * branch.time_s));
+            [
+                storage + modulus * debye.frozen,
+                loss + modulus * debye.loss,
+            ]
+        })
 }

@@ -2,15 +2,16 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::identify::series::Point;
-
 /// Residuals, each in its standard deviation, as functions of the unknowns.
-pub(super) trait Problem {
+pub trait Problem {
+    /// Numbers in the order of the columns of derivatives.
+    type Unknowns: Clone + AsRef<[f64]> + From<Vec<f64>>;
+
     /// `None` where the unknowns cannot be tried.
-    fn residuals(&self, unknowns: &Point) -> Option<DVector<f64>>;
+    fn residuals(&self, unknowns: &Self::Unknowns) -> Option<DVector<f64>>;
 
     /// Derivatives of the residuals, a column for each unknown.
-    fn derivatives(&self, unknowns: &Point) -> Option<DMatrix<f64>>;
+    fn derivatives(&self, unknowns: &Self::Unknowns) -> Option<DMatrix<f64>>;
 
     /// The nearest value that this unknown may have.
     fn clamp(&self, place: usize, value: f64) -> f64;
@@ -18,21 +19,21 @@ pub(super) trait Problem {
 
 /// When it ends.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Ending {
-    pub(super) iterations: usize,
+pub struct Ending {
+    pub iterations: usize,
     /// The decrease of the sum of squares, relative, that is no longer worth a step.
-    pub(super) enough: f64,
+    pub enough: f64,
 }
 
 /// Where it ended.
 #[derive(Debug, Clone)]
-pub(super) struct Solution {
-    pub(super) unknowns: Point,
-    pub(super) residuals: DVector<f64>,
+pub struct Solution<U> {
+    pub unknowns: U,
+    pub residuals: DVector<f64>,
 }
 
-impl Solution {
-    pub(super) fn squares(&self) -> f64 {
+impl<U> Solution<U> {
+    pub fn squares(&self) -> f64 {
         self.residuals.norm_squared()
     }
 }
@@ -41,18 +42,20 @@ impl Solution {
 const LARGEST_STEP: f64 = 1.5;
 
 /// The sum of squares below which residuals are rounding.
-const ROUNDING: f64 = 1e-16;
+const ROUNDING: f64 = 1e-26;
 
 /// The least squares solution next to a start; `None` where the start cannot be tried.
-pub(super) fn minimise(problem: &impl Problem, start: &Point, ending: Ending) -> Option<Solution> {
+pub fn minimise<P: Problem>(
+    problem: &P,
+    start: &P::Unknowns,
+    ending: Ending,
+) -> Option<Solution<P::Unknowns>> {
     let clamped = |unknowns: &mut dyn Iterator<Item = f64>| {
         let all = unknowns.enumerate();
-        Point(
-            all.map(|(place, value)| problem.clamp(place, value))
-                .collect(),
-        )
+        let all = all.map(|(place, value)| problem.clamp(place, value));
+        P::Unknowns::from(all.collect())
     };
-    let unknowns = clamped(&mut start.0.iter().copied());
+    let unknowns = clamped(&mut start.as_ref().iter().copied());
     let mut best = Solution {
         residuals: problem.residuals(&unknowns)?,
         unknowns,
@@ -67,7 +70,7 @@ pub(super) fn minimise(problem: &impl Problem, start: &Point, ending: Ending) ->
         let before = best.squares();
         while damping < 1e10 {
             let trial = step(&normal, &gradient, damping).map(|step| {
-                let moved = best.unknowns.0.iter().zip(step.iter());
+                let moved = best.unknowns.as_ref().iter().zip(step.iter());
                 clamped(&mut moved.map(|(v, step)| v - step.clamp(-LARGEST_STEP, LARGEST_STEP)))
             });
             let residuals = trial.as_ref().and_then(|trial| problem.residuals(trial));
@@ -106,13 +109,15 @@ mod tests {
     struct Valley;
 
     impl Problem for Valley {
-        fn residuals(&self, Point(x): &Point) -> Option<DVector<f64>> {
+        type Unknowns = Vec<f64>;
+
+        fn residuals(&self, x: &Vec<f64>) -> Option<DVector<f64>> {
             Some(DVector::from_vec(vec![
                 10.0 * (x[1] - x[0] * x[0]),
                 1.0 - x[0],
             ]))
         }
-        fn derivatives(&self, Point(x): &Point) -> Option<DMatrix<f64>> {
+        fn derivatives(&self, x: &Vec<f64>) -> Option<DMatrix<f64>> {
             Some(DMatrix::from_row_slice(
                 2,
                 2,
@@ -130,9 +135,9 @@ mod tests {
             iterations: 100,
             enough: 1e-12,
         };
-        let found = minimise(&Valley, &Point(vec![-1.2, 1.0]), ending).unwrap();
+        let found = minimise(&Valley, &vec![-1.2, 1.0], ending).unwrap();
         assert!(
-            found.squares() < 1e-15 && (found.unknowns.0[0] - 1.0).abs() < 1e-7,
+            found.squares() < 1e-15 && (found.unknowns[0] - 1.0).abs() < 1e-7,
             "{found:?}"
         );
     }
