@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use contact_dma::prelude::*;
-use contact_dma::sweep::history::between::values_at;
+use contact_dma::simulation::between::values_at;
 
 /// Relative standard deviation of losses and phases.
 const NOISE: f64 = 0.01;

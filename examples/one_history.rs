@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use contact_dma::prelude::*;
-use contact_dma::sweep::history::{SimulationEnd, SimulationOutcome};
+use contact_dma::simulation::{SimulationEnd, SimulationOutcome};
 
 /// 10 N within 1 s, held for 100 s, removed within 1 s, and 100 s of rest.
 pub fn outcome() -> Result<SimulationOutcome, Box<dyn Error>> {

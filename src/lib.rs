@@ -52,7 +52,7 @@
 //!
 //! | module | what it knows |
 //! |---|---|
-//! | [`numerics`] | roots, extremes, polynomials, medians, non-negative least squares; nothing of the field |
+//! | [`numerics`] | grids, roots, extremes, polynomials, medians, least squares; nothing of the field |
 //! | [`quantity`] | quantities with units |
 //! | [`material`] | relaxation modulus, creep compliance, complex modulus; models, conversion, library |
 //! | [`indenter`] | gap functions |
@@ -62,7 +62,8 @@
 //! | [`cycle`] | signals of one cycle, measured or computed |
 //! | [`steady`] | the stabilised cycle found directly |
 //! | [`mod@reference`] | closed forms and slow independent solvers; of the production modules only `reproduction` uses it |
-//! | [`sweep`] | plans, cases in parallel, records on disk, peaks; single histories |
+//! | [`sweep`] | plans, cases in parallel, records on disk, peaks |
+//! | [`simulation`] | one drive history from its beginning to its end |
 //! | [`measured`] | measured loops: frequency, drift, cycles, corrections, moduli; uses the exact model for the bias of the small-amplitude formula |
 //! | [`identify`] | a material from measured cycles: the sweep as a forward model |
 //! | [`input`] | sweep, scenario and identification files, and the data files they name, to plans |
@@ -83,7 +84,7 @@
 #[doc(inline)]
 pub use contact_dma_core::{
     contact, cycle, drive, history, identify, indenter, material, measured, numerics, prelude,
-    quantity, reference, steady, sweep,
+    quantity, reference, simulation, steady, sweep,
 };
 
 #[cfg(feature = "cli")]

@@ -7,7 +7,7 @@ use contact_dma::input::given::{self, DynamicFit};
 use contact_dma::material::fit::FitRemark;
 use contact_dma::material::{Material, MaterialError, ModulusKind};
 use contact_dma::report::dynamic::{DynamicReport, Source};
-use contact_dma::sweep::plan::body_material::BodyMaterial;
+use contact_dma::simulation::body_material::BodyMaterial;
 use contact_dma::sweep::plan::resolved::material_text;
 use num_complex::Complex;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};

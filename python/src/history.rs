@@ -12,13 +12,13 @@ use contact_dma::input::scenario_file;
 use contact_dma::report::profile_lines;
 use contact_dma::report::quantities::{Moment, of_cycles, of_moments};
 use contact_dma::report::scenario_tables;
-use contact_dma::sweep::history::cycles::HistoryCycle;
-use contact_dma::sweep::history::errors::RowErrors;
-use contact_dma::sweep::history::outside_model;
-use contact_dma::sweep::history::{
+use contact_dma::simulation::cycles::HistoryCycle;
+use contact_dma::simulation::errors::RowErrors;
+use contact_dma::simulation::outside_model;
+use contact_dma::simulation::scenario::{ScenarioPlan, resolved_text};
+use contact_dma::simulation::{
     HistoryRow, Simulation, SimulationEnd, SimulationOutcome, SurfaceRecord,
 };
-use contact_dma::sweep::plan::scenario::{ScenarioPlan, resolved_text};
 use contact_dma::sweep::store::Store;
 use contact_dma::sweep::store::provenance::{BUILD, Circumstances, Stopwatch};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
@@ -197,7 +197,7 @@ impl History {
                 cases_found: None,
                 interrupted: false,
             };
-            let signed = Stopwatch::start().write_scenario(&store, &plan, &circumstances);
+            let signed = Stopwatch::start().write(&store, &plan.solver, None, &circumstances);
             signed.map_err(stored)
         })
     }

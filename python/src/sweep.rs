@@ -311,7 +311,12 @@ impl Sweep {
             cases_found: Some(0),
             interrupted: false,
         };
-        let signed = self.clock.write(&store, &plan, &circumstances);
+        let signed = self.clock.write(
+            &store,
+            &plan.solver,
+            Some(plan.cycle.tolerance),
+            &circumstances,
+        );
         signed.map_err(stored)
     }
 }

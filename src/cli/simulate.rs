@@ -15,9 +15,9 @@ use super::{Ended, Failure, json, meant_for, memory, open_document, open_store, 
 use crate::input::scenario_file;
 use crate::report::quantities::{self, Moment};
 use crate::report::{self, machine, terminal_simulation};
-use crate::sweep::history::checkpoint::{HistoryCheckpoint, HistoryState};
-use crate::sweep::history::{Simulation, SimulationEnd, SimulationOutcome};
-use crate::sweep::plan::scenario;
+use crate::simulation::checkpoint::{HistoryCheckpoint, HistoryState};
+use crate::simulation::scenario;
+use crate::simulation::{Simulation, SimulationEnd, SimulationOutcome};
 use crate::sweep::search::run;
 use crate::sweep::store::provenance::{Circumstances, Stopwatch};
 use crate::sweep::store::{Store, checkpoint_file};
@@ -133,7 +133,7 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
         cases_found: None,
         interrupted: outcome.ended == SimulationEnd::Interrupted,
     };
-    clock.write_scenario(&store, simulation.plan(), &circumstances)?;
+    clock.write(&store, &simulation.plan().solver, None, &circumstances)?;
     let folder = store.folder().display();
     if let SimulationEnd::Failed(message) = &outcome.ended {
         return Err(Failure::run(format!(

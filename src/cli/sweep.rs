@@ -257,7 +257,12 @@ impl<'a> Job<'a> {
             interrupted,
         };
         let plan = self.setup.plan();
-        Ok(self.clock.write(self.store, plan, &circumstances)?)
+        Ok(self.clock.write(
+            self.store,
+            &plan.solver,
+            Some(plan.cycle.tolerance),
+            &circumstances,
+        )?)
     }
 }
 

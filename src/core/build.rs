@@ -15,9 +15,18 @@ use std::{env, fs, io};
 use sha2::{Digest, Sha256};
 
 /// The modules that make numbers.
-const MODULES: [&str; 10] = [
-    "numerics", "quantity", "material", "indenter", "drive", "contact", "history", "cycle",
-    "steady", "sweep",
+const MODULES: [&str; 11] = [
+    "numerics",
+    "quantity",
+    "material",
+    "indenter",
+    "drive",
+    "contact",
+    "history",
+    "cycle",
+    "steady",
+    "sweep",
+    "simulation",
 ];
 
 /// Folders among them that make none: what keeps, finds, compares and shares out, and how figures look.

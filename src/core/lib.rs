@@ -14,6 +14,7 @@ pub mod measured;
 pub mod numerics;
 pub mod quantity;
 pub mod reference;
+pub mod simulation;
 pub mod steady;
 pub mod sweep;
 
@@ -24,8 +25,8 @@ pub mod prelude {
     pub use crate::indenter::{PowerLaw, Profile, Sphere};
     pub use crate::material::{Creep, CreepBranch, Material, ModulusKind};
     pub use crate::material::{Relaxation, RelaxationBranch, library};
-    pub use crate::sweep::history::Simulation;
-    pub use crate::sweep::plan::scenario::ScenarioPlan;
+    pub use crate::simulation::Simulation;
+    pub use crate::simulation::scenario::ScenarioPlan;
     pub use crate::sweep::record::CaseRecord;
     pub use crate::sweep::search::peak::Peak;
     pub use crate::sweep::search::run::Outcome;

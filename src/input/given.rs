@@ -11,7 +11,7 @@ pub use super::material_dynamic::DynamicFit;
 use super::material_table::DirectSum;
 use super::{indenter_block, material_block};
 use crate::indenter::{HeightMap, Indenter};
-use crate::sweep::plan::body_material::BodyMaterial;
+use crate::simulation::body_material::BodyMaterial;
 
 /// Values for blocks that a document leaves out; what it has counts.
 #[derive(Debug, Clone, Default)]

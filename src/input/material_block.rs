@@ -26,7 +26,7 @@ use crate::material::sampled::Sampled;
 use crate::material::{
     Compressibility, Creep, CreepBranch, Material, MaterialError, Relaxation, library,
 };
-use crate::sweep::plan::body_material::BodyMaterial;
+use crate::simulation::body_material::BodyMaterial;
 
 /// A way to give a material.
 #[derive(Debug, Clone, Copy, PartialEq)]

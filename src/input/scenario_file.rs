@@ -15,12 +15,11 @@ use crate::drive::SegmentedDrive;
 use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::quantity::{Dimension, format_human};
+use crate::simulation::body_material::BodyMaterial;
+use crate::simulation::scenario::{OutputPlan, ScenarioPlan};
 use crate::sweep::figures::figure_plan::FigurePlan;
-use crate::sweep::plan::body_material::BodyMaterial;
 use crate::sweep::plan::contact::ContactPlan;
-use crate::sweep::plan::scenario::{OutputPlan, ScenarioPlan};
 use crate::sweep::plan::{EngineKind, SolverPlan};
-use crate::sweep::scales::elastic::ElasticScale;
 
 /// The plan that a scenario file asks for.
 ///
@@ -77,7 +76,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Dia
             output: output?,
             figures: FigurePlan::default(),
         };
-        let scale = || ElasticScale::of_scenario(&plan).map(drop);
+        let scale = || plan.elastic_scale().map(drop);
         plan.figures = figures.checked(scale, problems)?;
         Some(plan)
     })

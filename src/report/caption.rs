@@ -6,10 +6,10 @@ use crate::indenter::{Indenter, Value};
 use crate::material::Material;
 use crate::material::dynamic::replicas::SIMULTANEOUS_DEVIATIONS;
 use crate::quantity::Dimension;
-use crate::sweep::history::SimulationOutcome;
+use crate::simulation::SimulationOutcome;
+use crate::simulation::scenario::ScenarioPlan;
 use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::layer::LayerPlan;
-use crate::sweep::plan::scenario::ScenarioPlan;
 use crate::sweep::plan::{Block, EngineKind, Method, SolverPlan, SweepPlan, Varied};
 use crate::sweep::search::run::Outcome;
 

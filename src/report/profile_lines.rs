@@ -1,7 +1,7 @@
 //! Lines along which a surface at one instant is shown: its radius, or the axes of its grid.
 
 use crate::contact::surface::{CellSurface, Surface};
-use crate::sweep::history::SurfaceRecord;
+use crate::simulation::SurfaceRecord;
 
 /// One point of a profile. The pressure is absent where it is unbounded, the gap where there is no indenter or its place is
 /// unknown.

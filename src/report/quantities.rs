@@ -5,9 +5,9 @@
 use super::table::{Cell, csv};
 use crate::cycle::Harmonic;
 use crate::quantity::{Dimension, FrequencyUnit};
-use crate::sweep::history::cycles::{CycleNumbers, HistoryCycle};
-use crate::sweep::history::errors::RowErrors;
-use crate::sweep::history::{HistoryRow, SimulationOutcome};
+use crate::simulation::cycles::{CycleNumbers, HistoryCycle};
+use crate::simulation::errors::RowErrors;
+use crate::simulation::{HistoryRow, SimulationOutcome};
 use crate::sweep::plan::Axes;
 use crate::sweep::record::error_bars::Quantity;
 use crate::sweep::record::{CaseRecord, CaseResult};

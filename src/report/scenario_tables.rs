@@ -11,10 +11,10 @@ use super::quantities;
 use super::table::{self, Cell, cells, csv};
 use super::vti;
 use crate::contact::surface::Surface;
-use crate::sweep::history::outside_model;
-use crate::sweep::history::{SimulationEnd, SimulationOutcome, SurfaceRecord};
-use crate::sweep::plan::body_material::BodyMaterial;
-use crate::sweep::plan::scenario::ScenarioPlan;
+use crate::simulation::body_material::BodyMaterial;
+use crate::simulation::outside_model;
+use crate::simulation::scenario::ScenarioPlan;
+use crate::simulation::{SimulationEnd, SimulationOutcome, SurfaceRecord};
 use crate::sweep::store::Store;
 
 /// The table of time steps.

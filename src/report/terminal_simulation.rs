@@ -8,11 +8,11 @@ use crate::report::number::with_error;
 use crate::report::quantities::{Column, HISTORY, Moment};
 use crate::report::samples;
 use crate::report::terminal;
-use crate::sweep::history::cycles::HistoryCycle;
-use crate::sweep::history::outside_model;
-use crate::sweep::history::{SimulationEnd, SimulationOutcome};
-use crate::sweep::plan::body_material::BodyMaterial;
-use crate::sweep::plan::scenario::ScenarioPlan;
+use crate::simulation::body_material::BodyMaterial;
+use crate::simulation::cycles::HistoryCycle;
+use crate::simulation::outside_model;
+use crate::simulation::scenario::ScenarioPlan;
+use crate::simulation::{SimulationEnd, SimulationOutcome};
 
 /// Title, material where it comes from a table, extent of the history, its largest contact and its end, with errors.
 pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {

@@ -11,7 +11,7 @@ use super::{Figure, Plans, ReproductionError, Result, Scale, figure_08_09, figur
 use crate::contact::surface::Surface;
 use crate::cycle::{self, Extrema, Loop};
 use crate::reference::steady::HarmonicContact;
-use crate::sweep::plan::scenario::ScenarioPlan;
+use crate::simulation::scenario::ScenarioPlan;
 use crate::sweep::plan::{EngineKind, SweepPlan};
 use crate::sweep::record::CaseResult;
 

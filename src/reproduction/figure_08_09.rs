@@ -9,8 +9,8 @@ use super::number::{Data, short};
 use super::{Claim, Figure, Measure, Plans, ReproductionError, Result, Scale, Source};
 use crate::report::chart::{Axis, Chart, LegendPlace, LineStyle, Marker, Series};
 use crate::report::table::{Cell, cells};
-use crate::sweep::history::{HistoryRow, SimulationOutcome};
-use crate::sweep::plan::scenario::{ScenarioPlan, resolved_text};
+use crate::simulation::scenario::{ScenarioPlan, resolved_text};
+use crate::simulation::{HistoryRow, SimulationOutcome};
 
 /// A history on springs and on cells, so many of the latter per side.
 #[derive(Clone)]

@@ -14,7 +14,7 @@ use super::{Claim, Figure, Measure, Plans, ReproductionError, Result, Source};
 use crate::cycle;
 use crate::report::chart::{Axis, Chart, LegendPlace, LineStyle, Mark, Marker, Series};
 use crate::report::table::cells;
-use crate::sweep::plan::scenario::ScenarioPlan;
+use crate::simulation::scenario::ScenarioPlan;
 use crate::sweep::plan::{EngineKind, SweepPlan};
 use crate::sweep::search::peak as search;
 

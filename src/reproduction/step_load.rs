@@ -17,10 +17,10 @@ use crate::history::March;
 use crate::reference::step_load::StepLoad;
 use crate::report::chart::{Axis, Chart, LegendPlace, Series};
 use crate::report::table::{Cell, cells};
+use crate::simulation::SimulationOutcome;
+use crate::simulation::scenario::ScenarioPlan;
 use crate::sweep::engine::{EngineBuilder, LargestContact};
-use crate::sweep::history::SimulationOutcome;
 use crate::sweep::plan::EngineKind;
-use crate::sweep::plan::scenario::ScenarioPlan;
 
 /// A history of one load, by both engines, beside its closed form.
 struct Held<'a> {

@@ -6,9 +6,9 @@ use std::sync::atomic::AtomicBool;
 
 use contact_dma::drive::{Control, HistoryError, Segment, SegmentedDrive};
 use contact_dma::prelude::*;
-use contact_dma::sweep::history::{Simulation, SimulationEnd, SimulationOutcome};
+use contact_dma::simulation::scenario::ScenarioPlan;
+use contact_dma::simulation::{Simulation, SimulationEnd, SimulationOutcome};
 use contact_dma::sweep::plan::adhesion::AdhesionPlan;
-use contact_dma::sweep::plan::scenario::ScenarioPlan;
 use contact_dma::sweep::record::CaseResult;
 use contact_dma::sweep::record::error_bars::Quantity;
 

@@ -10,12 +10,12 @@ use contact_dma::identify::data::{Datum, MeasuredCycle, Measurements, Number, Re
 use contact_dma::identify::{CellError, Driven, Identified, IdentifyPlan, identify};
 use contact_dma::indenter::{Indenter, Sphere};
 use contact_dma::material::{Compressibility, Material, ModulusKind, Relaxation, RelaxationBranch};
+use contact_dma::simulation::Simulation;
+use contact_dma::simulation::between::values_at;
+use contact_dma::simulation::scenario::ScenarioPlan;
 use contact_dma::sweep::Sweep;
-use contact_dma::sweep::history::Simulation;
-use contact_dma::sweep::history::between::values_at;
 use contact_dma::sweep::plan::adhesion::AdhesionPlan;
 use contact_dma::sweep::plan::layer::LayerPlan;
-use contact_dma::sweep::plan::scenario::ScenarioPlan;
 use contact_dma::sweep::plan::{CyclePlan, SolverPlan, SweepPlan};
 use contact_dma::sweep::record::error_bars::Quantity;
 

@@ -9,7 +9,7 @@ use crate::identification::from_environment;
 use contact_dma::identify::data::{Measurements, Reading};
 use contact_dma::identify::{Driven, Identified, IdentifyError, IdentifyPlan, identify};
 use contact_dma::prelude::*;
-use contact_dma::sweep::history::between::values_at;
+use contact_dma::simulation::between::values_at;
 use contact_dma::sweep::plan::EngineKind;
 
 const POISSON: f64 = 0.4;
@@ -75,8 +75,8 @@ fn plan(
     let ratio = (LAST_S / FIRST_S).powf(1.0 / (TIMES - 1) as f64);
     let times: Vec<f64> = (0..TIMES).map(|k| FIRST_S * ratio.powi(k as i32)).collect();
     let value = match drive.control() {
-        Control::Load => |row: &contact_dma::sweep::history::HistoryRow| row.approach_m,
-        Control::Approach => |row: &contact_dma::sweep::history::HistoryRow| Some(row.load_n),
+        Control::Load => |row: &contact_dma::simulation::HistoryRow| row.approach_m,
+        Control::Approach => |row: &contact_dma::simulation::HistoryRow| Some(row.load_n),
     };
     let exact = values_at(&drive, &outcome.rows, &times, value);
     let readings = times

@@ -8,7 +8,7 @@ use std::sync::atomic::AtomicBool;
 use contact_dma::cycle::{LoopAnalysis, analyse_open};
 use contact_dma::material::Creep;
 use contact_dma::prelude::*;
-use contact_dma::sweep::history::cycles::HistoryCycle;
+use contact_dma::simulation::cycles::HistoryCycle;
 use contact_dma::sweep::record::Status;
 use contact_dma::sweep::record::error_bars::Quantity;
 

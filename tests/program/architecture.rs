@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules from top to bottom: those of the package in `src/core`, then those of the program.
-const MODULES: [&str; 18] = [
+const MODULES: [&str; 19] = [
     "numerics",
     "quantity",
     "material",
@@ -16,6 +16,7 @@ const MODULES: [&str; 18] = [
     "steady",
     "reference",
     "sweep",
+    "simulation",
     "measured",
     "identify",
     "input",
@@ -26,8 +27,8 @@ const MODULES: [&str; 18] = [
 ];
 
 /// Folders of the module `sweep` from top to bottom.
-const SWEEP: [&str; 10] = [
-    "figures", "plan", "record", "engine", "store", "case", "history", "scales", "share", "search",
+const SWEEP: [&str; 9] = [
+    "figures", "plan", "record", "engine", "store", "case", "scales", "share", "search",
 ];
 
 /// Parts of the module `report` from top to bottom.

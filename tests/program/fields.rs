@@ -10,7 +10,7 @@ use contact_dma::contact::surface::{CellSurface, Surface};
 use contact_dma::input::document::Document;
 use contact_dma::input::scenario_file;
 use contact_dma::reference::elastic::Hertz;
-use contact_dma::sweep::history::{Simulation, SimulationEnd, SimulationOutcome, SurfaceRecord};
+use contact_dma::simulation::{Simulation, SimulationEnd, SimulationOutcome, SurfaceRecord};
 use tempfile::TempDir;
 
 const ZENER: &str = "title = \"fields\"\n[material]\npoisson_ratio = 0.5\n[material.zener]\nspring = \"1 MPa\"\n\

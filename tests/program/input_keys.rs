@@ -12,8 +12,8 @@ use contact_dma::identify;
 use contact_dma::input::document::Document;
 use contact_dma::input::keys::{self, FileKind};
 use contact_dma::input::{identify_file, key_reference, scenario_file, schema, sweep_file};
+use contact_dma::simulation::scenario;
 use contact_dma::sweep::plan::resolved::{identity, resolved_text};
-use contact_dma::sweep::plan::scenario;
 use tempfile::TempDir;
 use toml::Value;
 

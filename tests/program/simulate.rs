@@ -21,8 +21,8 @@ use contact_dma::input::document::Document;
 use contact_dma::input::scenario_file;
 use contact_dma::material::Creep;
 use contact_dma::reference::transient::maxwell_half_sine_cubed_radius;
+use contact_dma::simulation::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome};
 use contact_dma::sweep::engine::{EngineBuilder, LargestContact};
-use contact_dma::sweep::history::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome};
 use contact_dma::sweep::plan::{EngineKind, SolverPlan};
 
 /// Zener body of equal springs, C_0 = 2.5e-7 1/Pa and tau = 10 s, under a sphere of 10 mm.

@@ -18,9 +18,9 @@ use crate::identify::series::Point;
 use crate::identify::{Driven, IdentifyError, IdentifyPlan};
 use crate::indenter::Indenter;
 use crate::material::{Creep, MaterialError, Relaxation};
-use crate::sweep::history::between::values_at;
-use crate::sweep::history::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome};
-use crate::sweep::plan::scenario::ScenarioPlan;
+use crate::simulation::between::values_at;
+use crate::simulation::scenario::ScenarioPlan;
+use crate::simulation::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome};
 
 /// Load per modulus and approach of an elastic contact, between points that are joined by powers.
 struct Elastic {

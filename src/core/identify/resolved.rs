@@ -1,11 +1,11 @@
 //! The resolved identification: every default written out, as a file that gives the same plan again.
 
 use crate::identify::{Driven, IdentifyPlan};
+use crate::simulation::scenario::history_text;
 use crate::sweep::plan::resolved::{
     compressibility_line, counterbody_text, cycle_text, drive_text, opening_text, solver_text,
     toml_string,
 };
-use crate::sweep::plan::scenario::history_text;
 
 /// The plan as the text of an identification file.
 pub fn resolved_text(plan: &IdentifyPlan) -> String {

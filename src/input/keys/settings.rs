@@ -11,8 +11,8 @@ use crate::input::document::limits::Limits;
 use crate::input::document::row::{Optional, Or, Others, Row, Rows};
 use crate::quantity::Dimension::{AngularFrequency, Length, Time};
 use crate::quantity::FrequencyUnit;
+use crate::simulation::scenario::OutputPlan;
 use crate::sweep::figures::figure_plan::{AxisUnits, COLUMNS, Format};
-use crate::sweep::plan::scenario::OutputPlan;
 use crate::sweep::plan::{CyclePlan, EngineKind, Method, SolverPlan};
 
 /// Rounding leaves less than the first.

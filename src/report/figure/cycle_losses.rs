@@ -7,8 +7,8 @@ use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Color, Marker, Series};
 use crate::report::number::{largest, with_error};
 use crate::report::words::listed;
-use crate::sweep::history::SimulationOutcome;
-use crate::sweep::history::cycles::HistoryCycle;
+use crate::simulation::SimulationOutcome;
+use crate::simulation::cycles::HistoryCycle;
 
 /// Cycles that make a curve.
 const FEWEST: usize = 2;

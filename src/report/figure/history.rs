@@ -6,7 +6,7 @@ use crate::quantity::Dimension;
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Series};
 use crate::report::number::{largest, plain};
-use crate::sweep::history::{HistoryRow, SimulationOutcome};
+use crate::simulation::{HistoryRow, SimulationOutcome};
 
 /// Points of a curve beyond which only the extremes of each stretch are drawn.
 const MOST_POINTS: usize = 4000;

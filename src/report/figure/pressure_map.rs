@@ -8,7 +8,7 @@ use crate::report::ReportError;
 use crate::report::caption::{Caption, Setting};
 use crate::report::chart::{Axis, Chart, HeatMap};
 use crate::report::number::{self, plain, scientific};
-use crate::sweep::history::SurfaceRecord;
+use crate::simulation::SurfaceRecord;
 
 const NAME: &str = "pressure-map";
 

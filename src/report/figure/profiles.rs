@@ -11,7 +11,7 @@ use crate::report::number::{largest, plain, range, scientific};
 use crate::report::profile_lines::{ProfilePoint, lines};
 use crate::report::table::{cells, csv};
 use crate::report::words::listed;
-use crate::sweep::history::SurfaceRecord;
+use crate::simulation::SurfaceRecord;
 
 const NAME: &str = "profiles";
 /// Curves in one figure; more cannot be told apart.

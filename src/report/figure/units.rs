@@ -5,8 +5,8 @@ use crate::drive::Control;
 use crate::quantity::{Dimension, FrequencyUnit, ZERO_CELSIUS_K, format_human};
 use crate::report::ReportError;
 use crate::report::number::{self, at_frequency, plain, prefix, scientific};
+use crate::simulation::scenario::ScenarioPlan;
 use crate::sweep::figures::figure_plan::AxisUnits;
-use crate::sweep::plan::scenario::ScenarioPlan;
 use crate::sweep::plan::{SweepPlan, Varied};
 use crate::sweep::scales::elastic::ElasticScale;
 
@@ -88,7 +88,7 @@ impl Units {
     /// As [`Units::of_sweep`].
     pub fn of_scenario(plan: &ScenarioPlan) -> Result<Self, ReportError> {
         let under = || format!("largest {}", plan.drive.control().name());
-        Self::new(plan.figures.axes, under, || ElasticScale::of_scenario(plan))
+        Self::new(plan.figures.axes, under, || plan.elastic_scale())
     }
 
     fn new<E: Into<ReportError>>(

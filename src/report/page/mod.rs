@@ -25,10 +25,10 @@ pub use pictures::Pictures;
 pub use thinned::shown;
 
 use super::ReportError;
-use crate::sweep::history::SimulationOutcome;
+use crate::simulation::SimulationOutcome;
+use crate::simulation::scenario::{self, ScenarioPlan};
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::plan::resolved;
-use crate::sweep::plan::scenario::{self, ScenarioPlan};
 use crate::sweep::search::run::Outcome;
 use crate::sweep::store::RESOLVED;
 use frame::{Frame, HEAT, Input, MODULI, PLOT, TABLE};

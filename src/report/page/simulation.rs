@@ -16,12 +16,12 @@ use crate::report::number::{plain, with_error};
 use crate::report::profile_lines::lines;
 use crate::report::quantities::{CYCLES, Column};
 use crate::report::words;
-use crate::sweep::history::cycles::HistoryCycle;
-use crate::sweep::history::outside_model;
-use crate::sweep::history::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
-use crate::sweep::plan::body_material::BodyMaterial;
+use crate::simulation::body_material::BodyMaterial;
+use crate::simulation::cycles::HistoryCycle;
+use crate::simulation::outside_model;
+use crate::simulation::scenario::ScenarioPlan;
+use crate::simulation::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
 use crate::sweep::plan::resolved::drive_dimension;
-use crate::sweep::plan::scenario::ScenarioPlan;
 
 /// Moments of the history that the page carries.
 const MOMENTS: usize = 1500;

@@ -110,7 +110,7 @@ impl Levels<'_> {
 
 /// The resolution at which a case is predicted to have this accuracy, from its record on a coarser one; that one where it has it already,
 /// `None` where it has no result.
-pub(in crate::sweep) fn next_resolution(record: &CaseRecord, accuracy: f64) -> Option<Resolution> {
+pub(crate) fn next_resolution(record: &CaseRecord, accuracy: f64) -> Option<Resolution> {
     let (loss_j, bar) = loss_and_bar(record.result.as_ref()?)?;
     let share_j = 0.5 * accuracy * loss_j.abs();
     Some(Resolution {

@@ -40,7 +40,7 @@ impl Checkpoints {
     }
 
     /// The file of the next level, on this number of nodes and in this number of steps.
-    pub(in crate::sweep) fn next_level(&self, nodes: usize, steps: usize) -> CheckpointFile {
+    pub(crate) fn next_level(&self, nodes: usize, steps: usize) -> CheckpointFile {
         let level = self.levels.replace(self.levels.get() + 1);
         let name = format!("{}/{level:02}.finished", self.case);
         let owner = format!("{name}\n{:016x}\n{nodes} {steps}", self.frequency);
@@ -48,7 +48,7 @@ impl Checkpoints {
     }
 
     /// Takes in the end of a level.
-    pub(in crate::sweep) fn finished(&self, level: CheckpointFile, ended: &Stabilised) {
+    pub(crate) fn finished(&self, level: CheckpointFile, ended: &Stabilised) {
         if self.rhythm.is_wanted() {
             self.unwritten.borrow_mut().push((level, ended.clone()));
             if self.rhythm.is_due() {
@@ -58,7 +58,7 @@ impl Checkpoints {
     }
 
     /// Writes the levels that are not on disk yet.
-    pub(in crate::sweep) fn flush(&self) {
+    pub(crate) fn flush(&self) {
         let finished = self.unwritten.take();
         self.rhythm.written(|| {
             for (level, ended) in &finished {
@@ -68,7 +68,7 @@ impl Checkpoints {
     }
 
     /// Removes them: the case is done.
-    pub(in crate::sweep) fn remove(&self) {
+    pub(crate) fn remove(&self) {
         self.store.remove_checkpoints(&self.case);
     }
 }

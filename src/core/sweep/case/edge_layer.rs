@@ -35,7 +35,7 @@ struct Instant {
 }
 
 /// The edge of an indenter on a body.
-pub(in crate::sweep) struct EdgeLayer<'a> {
+pub(crate) struct EdgeLayer<'a> {
     body: &'a dyn Axisymmetric,
     branches: &'a [RelaxationBranch],
 }

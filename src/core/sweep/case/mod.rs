@@ -1,6 +1,6 @@
 //! One case of a sweep: the stabilised cycle at the resolution asked for, and at coarser ones for its error bars.
 
-pub(in crate::sweep) mod accuracy;
+pub(crate) mod accuracy;
 pub mod checkpoint;
 mod cycles;
 mod edge_layer;
@@ -76,7 +76,7 @@ impl Hash for EngineKey {
 
 /// Steps per cycle, and springs or cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::sweep) struct Resolution {
+pub(crate) struct Resolution {
     pub steps: usize,
     pub nodes: usize,
 }
@@ -92,7 +92,7 @@ impl Resolution {
 
 /// What a case is solved for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::sweep) struct Aim {
+pub(crate) struct Aim {
     pub wanted: Wanted,
     /// In place of the resolution of the plan: that of cases nearby, whose error bars hold for this one too.
     pub at: Option<Resolution>,
@@ -159,7 +159,7 @@ impl Setup {
     ///
     /// # Errors
     /// As [`Setup::new`], of a condition that is none of the plan.
-    pub(in crate::sweep) fn solid(&self, condition: &Condition) -> Result<Arc<Solid>, SetupError> {
+    pub(crate) fn solid(&self, condition: &Condition) -> Result<Arc<Solid>, SetupError> {
         let key = Arc::as_ptr(&condition.contact.material).addr();
         let mut solids = whole(&self.solids);
         if let Some((_, solid)) = solids.get(&key) {
@@ -200,7 +200,7 @@ impl Setup {
     }
 
     /// Tolerance of an instant of a cycle.
-    pub(in crate::sweep) fn instant_tolerance(
+    pub(crate) fn instant_tolerance(
         &self,
         compliance: &Creep,
         drive: &HarmonicDrive,
@@ -297,7 +297,7 @@ impl Setup {
     }
 
     /// As [`Setup::run_from`], for what the record is wanted for.
-    pub(in crate::sweep) fn run_for(
+    pub(crate) fn run_for(
         &self,
         aim: Aim,
         checkpoints: Option<&Checkpoints>,

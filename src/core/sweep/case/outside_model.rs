@@ -9,7 +9,7 @@ use crate::sweep::record::error_bars::Quantity;
 use crate::sweep::record::warning::{NoErrorBars, Warning};
 
 /// What is to be said of a case at an angular frequency (rad/s) and in a number of steps, once it is solved.
-pub(in crate::sweep) fn warnings(
+pub(crate) fn warnings(
     solver: &SolverPlan,
     condition: &Condition,
     (omega, steps): (f64, usize),

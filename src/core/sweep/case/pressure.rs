@@ -7,7 +7,7 @@ use crate::history::March;
 use crate::sweep::record::{PressureProfile, Quarter};
 
 /// Profiles of one cycle, taken as its steps go by.
-pub(in crate::sweep) struct Pressures {
+pub(crate) struct Pressures {
     /// The time step of each instant, counted from 1.
     steps: [(Quarter, usize); 4],
     profiles: Vec<PressureProfile>,
@@ -15,7 +15,7 @@ pub(in crate::sweep) struct Pressures {
 
 impl Pressures {
     /// Nothing taken yet of a cycle in so many steps.
-    pub(in crate::sweep) fn new(drive: &HarmonicDrive, steps: usize) -> Self {
+    pub(crate) fn new(drive: &HarmonicDrive, steps: usize) -> Self {
         Self {
             steps: Quarter::ALL.map(|quarter| (quarter, nearest_step(quarter, drive, steps))),
             profiles: Vec::with_capacity(Quarter::ALL.len()),
@@ -23,7 +23,7 @@ impl Pressures {
     }
 
     /// Takes in the instant at the end of a step.
-    pub(in crate::sweep) fn see(
+    pub(crate) fn see(
         &mut self,
         march: &mut March<'_>,
         step: usize,
@@ -47,7 +47,7 @@ impl Pressures {
     }
 
     /// The profiles, in the order of [`Quarter::ALL`] whatever the phase of the drive.
-    pub(in crate::sweep) fn finished(mut self) -> Vec<PressureProfile> {
+    pub(crate) fn finished(mut self) -> Vec<PressureProfile> {
         self.profiles.sort_by_key(|profile| profile.quarter);
         self.profiles
     }

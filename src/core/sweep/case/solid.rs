@@ -6,7 +6,7 @@ use crate::sweep::case::SetupError;
 
 /// A material as a case takes it.
 #[derive(Debug)]
-pub(in crate::sweep) struct Solid {
+pub(crate) struct Solid {
     /// C(t).
     pub compliance: Creep,
     /// Its inverse, unless the body answers an instant with no finite modulus.

@@ -27,7 +27,7 @@ const PART_CYCLES: usize = 50;
 
 /// What a stabilised cycle is recorded for, least first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(in crate::sweep) enum Wanted {
+pub(crate) enum Wanted {
     /// The energy loss.
     Loss,
     /// All numbers that have error bars.
@@ -38,7 +38,7 @@ pub(in crate::sweep) enum Wanted {
 
 /// What has to be known of a case, whatever its resolution.
 #[derive(Clone, Copy)]
-pub(in crate::sweep) struct Contact<'a> {
+pub(crate) struct Contact<'a> {
     /// The body of the case, for which engines are laid out.
     pub solid: &'a Solid,
     /// What is solved with: that of the body, or of another in its place.
@@ -59,7 +59,7 @@ pub(in crate::sweep) struct Contact<'a> {
 
 /// A cycle's end.
 #[derive(Clone, Serialize, Deserialize)]
-pub(in crate::sweep) struct Stabilised {
+pub(crate) struct Stabilised {
     pub method: Method,
     pub cycles: usize,
     pub work: Work,
@@ -91,7 +91,7 @@ impl Stabilised {
 
 /// Why there is neither a result nor the finding that the cycle does not stabilise.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub(in crate::sweep) enum CaseError {
+pub(crate) enum CaseError {
     #[error(transparent)]
     Contact(#[from] ContactError),
     #[error(transparent)]
@@ -104,7 +104,7 @@ pub(in crate::sweep) enum CaseError {
 
 impl CaseError {
     /// Whether more steps or nodes may do what these could not.
-    pub(in crate::sweep) fn may_be_of_the_resolution(&self) -> bool {
+    pub(crate) fn may_be_of_the_resolution(&self) -> bool {
         matches!(
             self,
             Self::Contact(ContactError::NotConverged { .. }) | Self::Loop(_)
@@ -235,7 +235,7 @@ impl Contact<'_> {
     }
 
     /// The stabilised cycle in `steps` steps, searched from `start` where one is given.
-    pub(in crate::sweep) fn stabilise(
+    pub(crate) fn stabilise(
         &self,
         engine: &mut dyn Engine,
         steps: usize,

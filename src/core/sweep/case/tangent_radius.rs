@@ -11,7 +11,7 @@ use crate::history::March;
 const INSTANTS: usize = 8;
 
 /// Tangent and contact radius of one cycle, taken as its steps go by.
-pub(in crate::sweep) struct TangentRadius {
+pub(crate) struct TangentRadius {
     every: usize,
     tangent_m: f64,
     contact_m: f64,
@@ -20,7 +20,7 @@ pub(in crate::sweep) struct TangentRadius {
 
 impl TangentRadius {
     /// Nothing taken yet of a cycle in so many steps.
-    pub(in crate::sweep) fn new(steps: usize) -> Self {
+    pub(crate) fn new(steps: usize) -> Self {
         Self {
             every: steps.div_ceil(INSTANTS).max(1),
             tangent_m: 0.0,
@@ -30,11 +30,7 @@ impl TangentRadius {
     }
 
     /// Takes in the instant at the end of a step.
-    pub(in crate::sweep) fn see(
-        &mut self,
-        march: &mut March<'_>,
-        step: usize,
-    ) -> Result<(), ContactError> {
+    pub(crate) fn see(&mut self, march: &mut March<'_>, step: usize) -> Result<(), ContactError> {
         if !step.is_multiple_of(self.every) {
             return Ok(());
         }
@@ -51,7 +47,7 @@ impl TangentRadius {
 
     /// The mean over the cycle (m), from that of the contact radius; `None` where there is no contact, or one whose stiffness
     /// could not be computed.
-    pub(in crate::sweep) fn mean_m(&self, mean_contact_radius_m: f64) -> Option<f64> {
+    pub(crate) fn mean_m(&self, mean_contact_radius_m: f64) -> Option<f64> {
         let is_known = !self.failed && self.contact_m > 0.0;
         is_known.then(|| mean_contact_radius_m * (self.tangent_m / self.contact_m))
     }

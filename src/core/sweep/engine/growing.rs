@@ -121,7 +121,7 @@ impl Moving {
 }
 
 /// The state within a step of a march on the nodes of `from`, as a march on those of `to` goes on from it.
-pub(in crate::sweep) fn moved(state: StepState, from: &Layout, to: &Layout) -> StepState {
+pub(crate) fn moved(state: StepState, from: &Layout, to: &Layout) -> StepState {
     let moving = Moving::new(from, to);
     let fields = |fields: &[f64]| -> Vec<f64> {
         let each = fields.chunks_exact(from.nodes());
@@ -143,7 +143,7 @@ pub(in crate::sweep) fn moved(state: StepState, from: &Layout, to: &Layout) -> S
 
 /// Whether the gap is convex within this half width (m), as far as a lattice of points tells: then contact grows outwards from
 /// where it began, and cannot begin anew elsewhere.
-pub(in crate::sweep) fn is_convex_within(indenter: &dyn Indenter, half_width_m: f64) -> bool {
+pub(crate) fn is_convex_within(indenter: &dyn Indenter, half_width_m: f64) -> bool {
     /// Points along a side; no distance of them is commensurate with the origin.
     const POINTS: i32 = 9;
     /// Of the largest gap at the two ends.

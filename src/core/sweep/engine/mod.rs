@@ -85,7 +85,7 @@ pub struct LargestContact {
 
 impl LargestContact {
     /// That of a body as soft as this: no history within the drive's range makes a larger one than its maximum held for ever.
-    pub(in crate::sweep) fn of(drive: &HarmonicDrive, compliance_per_pa: f64) -> Self {
+    pub(crate) fn of(drive: &HarmonicDrive, compliance_per_pa: f64) -> Self {
         Self {
             control: drive.control(),
             maximum: drive.maximum() + drive.pull_off_n(),
@@ -206,7 +206,7 @@ impl EngineBuilder {
     ///
     /// # Errors
     /// [`EngineError::Grid`].
-    pub(in crate::sweep) fn scaled(&self, factor: f64) -> Result<Self, EngineError> {
+    pub(crate) fn scaled(&self, factor: f64) -> Result<Self, EngineError> {
         let domain = domain::scaled(&self.domain, factor);
         let (indenter, layer) = (Arc::clone(&self.indenter), self.layer.clone());
         let sizes = (domain, factor * self.half_width_m);
@@ -215,7 +215,7 @@ impl EngineBuilder {
 
     /// How often the domain can be halved and still hold a contact no larger than this: not at all, where the contact might not
     /// grow outwards from there.
-    pub(in crate::sweep) fn halvings_to(&self, first: LargestContact) -> usize {
+    pub(crate) fn halvings_to(&self, first: LargestContact) -> usize {
         /// Room beyond the first contact, whose size is an estimate.
         const ROOM: f64 = 1.15;
         let own = matches!(self.domain, Domain::Cells { .. });
@@ -240,7 +240,7 @@ impl EngineBuilder {
     }
 
     /// Where the nodes are.
-    pub(in crate::sweep) fn layout(&self) -> Layout {
+    pub(crate) fn layout(&self) -> Layout {
         match self.grid {
             Some(grid) => Layout::Cells(grid),
             None => Layout::Springs {
@@ -285,7 +285,7 @@ impl EngineBuilder {
     }
 
     /// Half width (m) of the domain enlarged `growths` times, and whether a further enlargement would enlarge it.
-    pub(in crate::sweep) fn enlarged_half_width_m(&self, growths: usize) -> (f64, bool) {
+    pub(crate) fn enlarged_half_width_m(&self, growths: usize) -> (f64, bool) {
         if self.solver.engine == EngineKind::HalfSpace {
             let half_width_m = domain::half_width_m(&self.domain, growths);
             return (half_width_m, domain::can_grow(&self.domain, growths));
@@ -299,7 +299,7 @@ impl EngineBuilder {
     }
 
     /// Why a domain enlarged `growths` times, whose edge the contact has reached, is not enlarged further.
-    pub(in crate::sweep) fn not_enlarged(&self, growths: usize) -> Option<EngineError> {
+    pub(crate) fn not_enlarged(&self, growths: usize) -> Option<EngineError> {
         let (half_width_m, can_grow) = self.enlarged_half_width_m(growths);
         if !can_grow {
             return Some(EngineError::EndOfData { half_width_m });
@@ -421,7 +421,7 @@ fn body(indenter: &dyn Indenter) -> Result<&dyn indenter::Axisymmetric, EngineEr
 }
 
 /// The layer that a body of this Poisson ratio is, where it is one.
-pub(in crate::sweep) fn layer(
+pub(crate) fn layer(
     plan: Option<LayerPlan>,
     poisson_ratio: Option<f64>,
 ) -> Result<Option<Layer>, EngineError> {
@@ -473,7 +473,7 @@ fn contact_domain(indenter: &dyn Indenter, largest: LargestContact) -> Domain {
 }
 
 /// Why a drive that presses the indenter in to this approach (m) came to no contact at all.
-pub(in crate::sweep) fn missed_contact(approach_m: f64) -> String {
+pub(crate) fn missed_contact(approach_m: f64) -> String {
     format!(
         "the indenter is pressed in by up to {approach_m:.3e} m and yet no cell came into contact: its lowest point lies between \
          cells that are too large for so small a contact (give more solver.cells; if the indenter lies off the origin, a smaller \

@@ -39,7 +39,7 @@ const MAX_DIRECT_STEPS: usize = 20_000;
 const MAX_DIRECT_BYTES: usize = 2_000_000_000;
 
 /// Refuses a direct sum that takes too long, or too much memory.
-pub(in crate::sweep) fn check_direct_sum(steps: usize, nodes: usize) -> Result<(), SetupError> {
+pub(crate) fn check_direct_sum(steps: usize, nodes: usize) -> Result<(), SetupError> {
     let bytes = steps.saturating_mul(nodes).saturating_mul(size_of::<f64>());
     match steps <= MAX_DIRECT_STEPS && bytes <= MAX_DIRECT_BYTES {
         true => Ok(()),

@@ -28,14 +28,10 @@ use crate::sweep::record::{CaseResult, CellLoss, SurfaceLoss};
 /// Share of the contact area, on cells, that a slope is not below.
 const STEEPEST_SHARE: f64 = 0.05;
 /// Rounding of what is compared with a limit.
-pub(in crate::sweep) const ROUNDING: f64 = 1e-9;
+pub(crate) const ROUNDING: f64 = 1e-9;
 
 /// A slope within the contact, and the strain that goes with it in a material of this modulus.
-pub(in crate::sweep) fn of_slope(
-    slope: Option<f64>,
-    contact_radius_m: f64,
-    modulus_pa: f64,
-) -> Vec<Warning> {
+pub(crate) fn of_slope(slope: Option<f64>, contact_radius_m: f64, modulus_pa: f64) -> Vec<Warning> {
     // A record holds finite numbers.
     let Some(slope) = slope.filter(|slope| slope.is_finite()) else {
         return Vec::new();
@@ -52,7 +48,7 @@ pub(in crate::sweep) fn of_slope(
 }
 
 /// Slope within the largest contact of a cycle.
-pub(in crate::sweep) fn slope_of_case(indenter: &dyn Indenter, result: &CaseResult) -> Option<f64> {
+pub(crate) fn slope_of_case(indenter: &dyn Indenter, result: &CaseResult) -> Option<f64> {
     let (radius_m, approach_m) = (result.contact_radius_m.maximum, result.approach_m.maximum);
     match (indenter.axisymmetric(), &result.cycle.surface_loss) {
         (Some(body), _) => slope_of_body(body, radius_m, approach_m),
@@ -62,7 +58,7 @@ pub(in crate::sweep) fn slope_of_case(indenter: &dyn Indenter, result: &CaseResu
 }
 
 /// Slope of a convex body of revolution at the edge of contact, or what a rim amounts to.
-pub(in crate::sweep) fn slope_of_body(
+pub(crate) fn slope_of_body(
     body: &dyn Axisymmetric,
     radius_m: f64,
     approach_m: f64,
@@ -87,7 +83,7 @@ pub(in crate::sweep) fn slope_of_body(
 }
 
 /// A rectangle of cells with the gap (m) of those in contact.
-pub(in crate::sweep) struct Patch {
+pub(crate) struct Patch {
     cells_x: usize,
     spacing_m: [f64; 2],
     gap_m: Vec<Option<f64>>,
@@ -115,7 +111,7 @@ impl Patch {
     }
 
     /// The cells of least gap that together have this area (m2).
-    pub(in crate::sweep) fn lowest(indenter: &dyn Indenter, grid: &Grid, area_m2: f64) -> Self {
+    pub(crate) fn lowest(indenter: &dyn Indenter, grid: &Grid, area_m2: f64) -> Self {
         let gaps_m = domain::gaps_m(indenter, grid);
         let mut order: Vec<usize> = (0..gaps_m.len()).collect();
         let cell_m2 = grid.spacing_x_m() * grid.spacing_y_m();
@@ -135,7 +131,7 @@ impl Patch {
     }
 
     /// The slope that all but a small share of the contact stay below; `None` where no two cells in contact are neighbours.
-    pub(in crate::sweep) fn steepest(&self) -> Option<f64> {
+    pub(crate) fn steepest(&self) -> Option<f64> {
         let mut slopes: Vec<f64> = (0..self.gap_m.len())
             .filter_map(|c| self.slope(c))
             .collect();

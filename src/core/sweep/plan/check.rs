@@ -5,7 +5,6 @@ use std::ops::{Range, RangeInclusive};
 
 use crate::contact::half_space::layer::YieldingBase;
 use crate::sweep::plan::contact::ContactPlan;
-use crate::sweep::plan::scenario::ScenarioPlan;
 use crate::sweep::plan::{Condition, CyclePlan, EngineKind, Method, SolverPlan, SweepPlan};
 
 /// Why a plan is refused.
@@ -84,7 +83,7 @@ impl SweepPlan {
     }
 
     /// The same of a plan that may still lack its frequencies.
-    pub(in crate::sweep) fn check_values(&self) -> Result<(), PlanError> {
+    pub(crate) fn check_values(&self) -> Result<(), PlanError> {
         let omegas = &self.angular_frequencies_rad_per_s;
         omegas
             .iter()
@@ -140,7 +139,7 @@ impl SolverPlan {
     pub const CELLS: RangeInclusive<usize> = 8..=4096;
     pub const TOLERANCE: Range<f64> = CyclePlan::TOLERANCE;
 
-    pub(super) fn check(&self) -> Result<(), PlanError> {
+    pub(crate) fn check(&self) -> Result<(), PlanError> {
         match self.engine {
             EngineKind::Axisymmetric => check_count("springs", self.springs, &Self::SPRINGS)?,
             EngineKind::HalfSpace => check_count("cells", self.cells, &Self::CELLS)?,
@@ -150,22 +149,8 @@ impl SolverPlan {
     }
 }
 
-impl ScenarioPlan {
-    /// Checks every value that is not checked where it is made. Times are checked with the time steps, by
-    /// [`crate::sweep::history::Simulation::new`].
-    ///
-    /// # Errors
-    /// [`PlanError`] with the first value that is refused.
-    pub fn check(&self) -> Result<(), PlanError> {
-        let cells = self.output.field_cells;
-        check_count("cells of a field", cells, &SolverPlan::CELLS)?;
-        self.contact.check()?;
-        self.solver.check()
-    }
-}
-
 /// Refuses an angular frequency (rad/s) that is not positive and finite.
-pub(in crate::sweep) fn check_frequency(angular_frequency_rad_per_s: f64) -> Result<(), PlanError> {
+pub(crate) fn check_frequency(angular_frequency_rad_per_s: f64) -> Result<(), PlanError> {
     let omega = angular_frequency_rad_per_s;
     match omega.is_finite() && omega > 0.0 {
         true => Ok(()),
@@ -187,7 +172,7 @@ fn check_order(what: &str, values: &[f64]) -> Result<(), PlanError> {
     }
 }
 
-fn check_count(
+pub(crate) fn check_count(
     what: &'static str,
     value: usize,
     range: &RangeInclusive<usize>,

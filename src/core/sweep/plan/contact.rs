@@ -9,7 +9,7 @@ use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::resolved;
 
 /// A contact of bodies of which so much is known as `M` says: a [`crate::material::Material`] of a sweep, a
-/// [`crate::sweep::plan::body_material::BodyMaterial`] of a history, [`crate::identify::Sought`] of an identification.
+/// [`crate::simulation::body_material::BodyMaterial`] of a history, [`crate::identify::Sought`] of an identification.
 #[derive(Debug, Clone)]
 pub struct ContactPlan<M> {
     pub material: M,
@@ -42,7 +42,7 @@ impl<M> ContactPlan<M> {
     }
 
     /// Checks every value that is not checked where it is made.
-    pub(in crate::sweep) fn check(&self) -> Result<(), PlanError> {
+    pub(crate) fn check(&self) -> Result<(), PlanError> {
         self.layer.map_or(Ok(()), |layer| layer.check())
     }
 

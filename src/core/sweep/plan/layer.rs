@@ -75,7 +75,7 @@ impl LayerPlan {
         format!("in a layer {of_thickness}{}", self.lies(is_varied))
     }
 
-    pub(in crate::sweep) fn check(&self) -> Result<(), PlanError> {
+    pub(crate) fn check(&self) -> Result<(), PlanError> {
         if !(self.thickness_m.is_finite() && self.thickness_m > 0.0) {
             return Err(PlanError::Thickness {
                 thickness_m: self.thickness_m,

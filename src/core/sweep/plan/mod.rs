@@ -2,14 +2,12 @@
 
 pub mod adhesion;
 pub mod axes;
-pub mod body_material;
 pub mod check;
 pub mod contact;
 pub mod instant_tolerance;
 pub mod layer;
 mod material_text;
 pub mod resolved;
-pub mod scenario;
 
 pub use axes::{Axes, AxisValues, Block, Varied};
 
@@ -299,14 +297,14 @@ impl Default for SolverPlan {
 }
 
 #[cfg(test)]
-pub(in crate::sweep) mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::drive::Control;
     use crate::indenter::{HeightMap, MapEdge, MapQuantity, Shifted, Sphere};
     use crate::material::library;
 
     /// A sphere on PMMA under a load, of which no number varies.
-    pub(in crate::sweep) fn condition() -> Condition {
+    pub(crate) fn condition() -> Condition {
         let pmma = library::find("pmma").unwrap().material().unwrap();
         let drive = HarmonicDrive::new(Control::Load, 10.0, 5.0, 0.0, 0.0).unwrap();
         SweepPlan::new(pmma, Arc::new(Sphere::new(0.01).unwrap()), drive).base

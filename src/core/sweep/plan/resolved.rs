@@ -306,17 +306,17 @@ pub fn hash_of_bytes(bytes: &[u8]) -> String {
 }
 
 /// A line with a key, where there is a value.
-pub(super) fn entry(key: &str, value: Option<String>) -> String {
+pub(crate) fn entry(key: &str, value: Option<String>) -> String {
     value.map_or(String::new(), |value| format!("{key} = {value}\n"))
 }
 
 /// A quantity as TOML.
-pub(super) fn quoted(value: f64, dimension: Dimension) -> String {
+pub(crate) fn quoted(value: f64, dimension: Dimension) -> String {
     format!("\"{}\"", format_si(value, dimension))
 }
 
 /// A list of bare numbers as TOML.
-pub(super) fn numbers(values: impl Iterator<Item = f64>) -> String {
+pub(crate) fn numbers(values: impl Iterator<Item = f64>) -> String {
     // `{:?}` writes a float as TOML reads it, with a point or an exponent, and loses no bit.
     let values: Vec<String> = values.map(|value| format!("{value:?}")).collect();
     format!("[{}]", values.join(", "))

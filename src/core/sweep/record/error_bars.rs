@@ -297,12 +297,7 @@ pub struct Ladder<T> {
 
 impl<T> Ladder<T> {
     /// The error of the finest, from the differences of both pairs and the lowest and the highest order believed.
-    pub(in crate::sweep) fn error(
-        &self,
-        first: f64,
-        second: Option<f64>,
-        orders: (f64, f64),
-    ) -> f64 {
+    pub(crate) fn error(&self, first: f64, second: Option<f64>, orders: (f64, f64)) -> f64 {
         let ratio = self.second.as_ref().map(|pair| pair.ratio);
         richardson(first, self.first.ratio, second.zip(ratio), orders)
     }
@@ -310,13 +305,13 @@ impl<T> Ladder<T> {
 
 /// By what the estimate is multiplied: of 200 random cases, this leaves the true error inside the bar in 95 of 100 and more
 /// (`tests/physics/error_bars.rs`), without making the bar useless.
-pub(in crate::sweep) const SAFETY: f64 = 1.5;
+pub(crate) const SAFETY: f64 = 1.5;
 
 /// By what the largest difference that another material makes is multiplied: that material is off, too, by a little.
 const MATERIAL_SAFETY: f64 = 1.25;
 
 /// What rounding leaves over the instants of a cycle, relative.
-pub(in crate::sweep) const ROUNDING: f64 = 1e-12;
+pub(crate) const ROUNDING: f64 = 1e-12;
 
 /// The lowest order believed, in the time steps and in the nodes of what is smooth in them: that of the constant rule.
 const LOWEST_SMOOTH_ORDER: f64 = 1.0;

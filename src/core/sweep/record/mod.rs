@@ -285,11 +285,11 @@ impl CaseResult {
     }
 
     /// Why a result whose numbers are not all finite is none.
-    pub(in crate::sweep) const NOT_FINITE: &str = "the result is not made of finite numbers: load, lengths, moduli or frequency are so large or \
+    pub(crate) const NOT_FINITE: &str = "the result is not made of finite numbers: load, lengths, moduli or frequency are so large or \
          small that what is computed of them leaves the range of floating-point numbers";
 
     /// Whether all its numbers are finite.
-    pub(in crate::sweep) fn is_finite(&self) -> bool {
+    pub(crate) fn is_finite(&self) -> bool {
         let numbers = Quantity::ALL.into_iter().filter_map(|quantity| {
             let error = self.errors.as_ref().and_then(|errors| errors.of(quantity));
             Some(quantity.of(self)? + error.unwrap_or(0.0))

@@ -110,7 +110,7 @@ impl NoErrorBars {
 
 impl Warning {
     /// What is to be said of the temperature of a material.
-    pub(in crate::sweep) fn of_temperature(material: &Material) -> Option<Self> {
+    pub(crate) fn of_temperature(material: &Material) -> Option<Self> {
         let (temperature_k, (lowest_k, highest_k)) =
             material.temperature_k().zip(material.isotherms_k())?;
         let within = lowest_k - SAME_TEMPERATURE_K..=highest_k + SAME_TEMPERATURE_K;
@@ -123,19 +123,19 @@ impl Warning {
 
     /// What is to be said of an approach (m) into a layer on a rigid base, where the body is one: a base that yields takes its part of
     /// the approach.
-    pub(in crate::sweep) fn of_depth(layer: Option<LayerPlan>, approach_m: f64) -> Option<Self> {
+    pub(crate) fn of_depth(layer: Option<LayerPlan>, approach_m: f64) -> Option<Self> {
         let layer = layer.filter(|layer| layer.yielding.is_none())?;
         let part = approach_m / layer.thickness_m;
         (part > LARGEST_DEPTH && part.is_finite()).then_some(Self::DeepInLayer { part })
     }
 
     /// What is to be said of Tabor's parameter.
-    pub(in crate::sweep) fn of_tabor_parameter(parameter: f64) -> Option<Self> {
+    pub(crate) fn of_tabor_parameter(parameter: f64) -> Option<Self> {
         (parameter > LARGEST_TABOR_PARAMETER).then_some(Self::TaborParameter { parameter })
     }
 
     /// What is to be said of the largest contact (m, its radius) under a map.
-    pub(in crate::sweep) fn of_cells(indenter: &dyn Indenter, radius_m: f64) -> Option<Self> {
+    pub(crate) fn of_cells(indenter: &dyn Indenter, radius_m: f64) -> Option<Self> {
         indenter.own_cells()?;
         // Where a map has its cells does not depend on the load.
         let Domain::Cells {
@@ -151,7 +151,7 @@ impl Warning {
     }
 
     /// What is to be said of the loss of a body that dissipates.
-    pub(in crate::sweep) fn of_loss(result: &CaseResult) -> Option<Self> {
+    pub(crate) fn of_loss(result: &CaseResult) -> Option<Self> {
         let energy_loss_j = result.analysis.energy_loss_j;
         let bar_j = (result.errors.as_ref()).and_then(|errors| errors.of(Quantity::EnergyLoss));
         let approach_m = result.approach_m.maximum - result.approach_m.minimum;
@@ -161,12 +161,12 @@ impl Warning {
     }
 
     /// What is to be said of a contact that lasts so many time steps.
-    pub(in crate::sweep) fn of_steps_in_contact(steps: f64) -> Option<Self> {
+    pub(crate) fn of_steps_in_contact(steps: f64) -> Option<Self> {
         (steps < FEWEST_STEPS_IN_CONTACT).then_some(Self::ShortContact { steps })
     }
 
     /// What is to be said of an energy imbalance, with the error bar of the loss relative to it, where there is one.
-    pub(in crate::sweep) fn of_energy_imbalance(part: f64, bar: Option<f64>) -> Option<Self> {
+    pub(crate) fn of_energy_imbalance(part: f64, bar: Option<f64>) -> Option<Self> {
         let allowed = bar.map_or(LARGEST_IMBALANCE, |bar| {
             bar.clamp(LARGEST_IMBALANCE, LARGEST_IMBALANCE_IN_BAR)
         });

@@ -6,7 +6,6 @@ use crate::indenter::Indenter;
 use crate::material::{Material, ModulusKind};
 use crate::numerics::roots::bisect;
 use crate::sweep::plan::contact::ContactPlan;
-use crate::sweep::plan::scenario::ScenarioPlan;
 use crate::sweep::plan::{SweepPlan, Varied};
 
 /// The elastic contact at the instantaneous compliance, under the mean load (or approach) of a sweep or the largest of a
@@ -63,18 +62,11 @@ impl ElasticScale {
         )
     }
 
-    /// The scale of a history: under its largest load or approach.
+    /// That of any contact, under the largest value that its drive prescribes.
     ///
     /// # Errors
     /// [`NoScale`].
-    pub fn of_scenario(plan: &ScenarioPlan) -> Result<Self, NoScale> {
-        let contact = &plan.contact;
-        let material = contact.material.series().ok_or(NoScale::Samples)?;
-        let largest = plan.drive.maximum() + plan.drive.pull_off_n();
-        Self::new(contact, material, plan.drive.control(), largest)
-    }
-
-    fn new<M>(
+    pub fn new<M>(
         of: &ContactPlan<M>,
         material: &Material,
         control: Control,

@@ -172,7 +172,7 @@ impl Bracket {
 }
 
 /// Loss over frequency, of the records of one curve in ascending frequency.
-pub(in crate::sweep) fn curve_of(records: &[CaseRecord]) -> Vec<Point> {
+pub(crate) fn curve_of(records: &[CaseRecord]) -> Vec<Point> {
     let points = records.iter();
     points
         .filter_map(|r| Some((r.angular_frequency_rad_per_s, r.energy_loss_j()?)))

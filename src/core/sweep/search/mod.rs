@@ -25,7 +25,7 @@ use crate::sweep::store::records::Kept;
 use crate::sweep::store::{Archive, StoreError};
 
 /// What solving more cases takes.
-pub(in crate::sweep) struct Search<'a> {
+pub(crate) struct Search<'a> {
     pub pool: ThreadPool,
     pub setup: &'a Setup,
     pub archive: Archive<'a>,

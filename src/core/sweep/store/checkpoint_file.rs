@@ -20,7 +20,7 @@ use crate::sweep::store::provenance::BUILD;
 pub const EVERY: Duration = Duration::from_secs(10);
 
 /// The folder of all checkpoints.
-pub(in crate::sweep) const FOLDER: &str = "checkpoints";
+pub(crate) const FOLDER: &str = "checkpoints";
 
 /// What has run for less than this is sooner computed again than read.
 const WORTH_KEEPING: Duration = Duration::from_secs(1);
@@ -32,7 +32,7 @@ const MARK: &[u8; 8] = b"CDMACHK\x02";
 const HASH_BYTES: usize = 32;
 
 /// Says when to write, by the time that has passed on a clock that never jumps.
-pub(in crate::sweep) struct Rhythm {
+pub(crate) struct Rhythm {
     every: Duration,
     began: Instant,
     written: Cell<Instant>,
@@ -42,7 +42,7 @@ pub(in crate::sweep) struct Rhythm {
 
 impl Rhythm {
     /// Begins now.
-    pub(in crate::sweep) fn new(every: Duration) -> Self {
+    pub(crate) fn new(every: Duration) -> Self {
         let now = Instant::now();
         Self {
             every,
@@ -53,19 +53,19 @@ impl Rhythm {
     }
 
     /// Whether enough has been computed for its state to be worth keeping.
-    pub(in crate::sweep) fn is_wanted(&self) -> bool {
+    pub(crate) fn is_wanted(&self) -> bool {
         self.began.elapsed() >= WORTH_KEEPING.min(self.every)
     }
 
     /// Whether it is time to write.
-    pub(in crate::sweep) fn is_due(&self) -> bool {
+    pub(crate) fn is_due(&self) -> bool {
         let waited = self.written.get().elapsed();
         let cost = self.cost.get().saturating_mul(SHARE);
         waited >= self.every && (self.every.is_zero() || waited >= cost)
     }
 
     /// Takes the time of a write.
-    pub(in crate::sweep) fn written<T>(&self, write: impl FnOnce() -> T) -> T {
+    pub(crate) fn written<T>(&self, write: impl FnOnce() -> T) -> T {
         let begun = Instant::now();
         let ended = write();
         self.cost.set(begun.elapsed());
@@ -76,7 +76,7 @@ impl Rhythm {
 
 /// The file of a checkpoint, and what it belongs to.
 #[derive(Debug, Clone)]
-pub(in crate::sweep) struct CheckpointFile {
+pub(crate) struct CheckpointFile {
     store: Store,
     name: PathBuf,
     owner: Owner,
@@ -99,7 +99,7 @@ pub enum Unusable {
 impl CheckpointFile {
     /// The file of this name among the checkpoints of a folder. It belongs to this build of the program, to the sweep or scenario
     /// of the folder, and to what `owner` names in it.
-    pub(in crate::sweep) fn new(store: &Store, name: impl AsRef<Path>, owner: &str) -> Self {
+    pub(crate) fn new(store: &Store, name: impl AsRef<Path>, owner: &str) -> Self {
         let owner = format!("{BUILD}\n{}\n{owner}", store.sweep_hash());
         Self {
             store: store.clone(),
@@ -108,12 +108,12 @@ impl CheckpointFile {
         }
     }
 
-    pub(in crate::sweep) fn path(&self) -> PathBuf {
+    pub(crate) fn path(&self) -> PathBuf {
         self.store.folder().join(&self.name)
     }
 
     /// What it holds; `None` where there is none.
-    pub(in crate::sweep) fn read<T: DeserializeOwned>(&self) -> Result<Option<T>, Unusable> {
+    pub(crate) fn read<T: DeserializeOwned>(&self) -> Result<Option<T>, Unusable> {
         match fs::read(self.path()) {
             Ok(bytes) => self.owner.decode(&bytes).map(Some),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
@@ -124,13 +124,13 @@ impl CheckpointFile {
 
     /// Writes it. Where it cannot be written, more is computed again, and nothing else is lost; in a folder that another sweep has
     /// taken, nothing is left behind.
-    pub(in crate::sweep) fn write(&self, content: &impl Serialize) {
+    pub(crate) fn write(&self, content: &impl Serialize) {
         let write = |file: &mut fs::File| self.owner.encode(content, file);
         let _ = (self.store.check_plan()).and_then(|()| self.store.write_with(&self.name, write));
     }
 
     /// Removes all checkpoints of the folder.
-    pub(in crate::sweep) fn remove_all(&self) {
+    pub(crate) fn remove_all(&self) {
         self.store.remove_checkpoints("");
     }
 }

@@ -21,14 +21,14 @@ pub enum Purpose {
 
 /// Which case a record is of: what it was solved for, and its numbers bit for bit.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-pub(in crate::sweep) struct Key {
+pub(crate) struct Key {
     purpose: Purpose,
     /// Mean, amplitude, frequency, and what else varies.
     bits: Vec<u64>,
 }
 
 impl Key {
-    pub(in crate::sweep) fn of(purpose: Purpose, case: &Case) -> Self {
+    pub(crate) fn of(purpose: Purpose, case: &Case) -> Self {
         let (drive, omega) = (&case.condition.drive, case.angular_frequency_rad_per_s);
         let drive = [drive.mean(), drive.amplitude()];
         Self::new(purpose, drive, omega, case.condition.values)
@@ -42,7 +42,7 @@ impl Key {
     }
 
     /// The name of a case in the folder: the same in every process that solves it.
-    pub(in crate::sweep) fn name(purpose: Purpose, case: &Case) -> String {
+    pub(crate) fn name(purpose: Purpose, case: &Case) -> String {
         match purpose {
             Purpose::Sweep => format!("{:04}", case.index),
             Purpose::Peak => {

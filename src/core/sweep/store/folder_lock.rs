@@ -19,7 +19,7 @@ pub(super) const LOCKS: [&str; 2] = [LOCK, LOCK_TO_COMPUTE];
 
 /// Who else is at work in a folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::sweep) enum Others {
+pub(crate) enum Others {
     Absent,
     AtWork,
     /// The file system has no locks.
@@ -28,7 +28,7 @@ pub(in crate::sweep) enum Others {
 
 /// The lock of a folder as this process has it; released when it is dropped.
 #[derive(Debug)]
-pub(in crate::sweep) struct FolderLock {
+pub(crate) struct FolderLock {
     /// `None` where the file can neither be created nor opened.
     file: Option<File>,
     /// Not where it is another user's.
@@ -37,12 +37,12 @@ pub(in crate::sweep) struct FolderLock {
 
 impl FolderLock {
     /// The lock of a folder, not taken yet.
-    pub(in crate::sweep) fn of(folder: &Path) -> Self {
+    pub(crate) fn of(folder: &Path) -> Self {
         Self::on(&folder.join(LOCK))
     }
 
     /// That of the processes that compute cases in it, which is exclusive but for shards.
-    pub(in crate::sweep) fn to_compute(folder: &Path) -> Self {
+    pub(crate) fn to_compute(folder: &Path) -> Self {
         Self::on(&folder.join(LOCK_TO_COMPUTE))
     }
 
@@ -64,7 +64,7 @@ impl FolderLock {
     }
 
     /// A lock that protects nothing, for folders that are only read.
-    pub(in crate::sweep) fn none() -> Self {
+    pub(crate) fn none() -> Self {
         Self {
             file: None,
             is_writable: false,
@@ -101,12 +101,12 @@ impl FolderLock {
     }
 
     /// Takes the lock exclusively where nobody else has it.
-    pub(in crate::sweep) fn try_exclusive(&self) -> Others {
+    pub(crate) fn try_exclusive(&self) -> Others {
         self.taken(File::try_lock)
     }
 
     /// Takes the lock together with others where nobody has it exclusively.
-    pub(in crate::sweep) fn try_shared(&self) -> Others {
+    pub(crate) fn try_shared(&self) -> Others {
         self.taken(File::try_lock_shared)
     }
 
@@ -120,7 +120,7 @@ impl FolderLock {
 
     /// Exchanges an exclusive lock, or none, for a shared one, after waiting for one that clears the folder. Others may come
     /// between the two: what was found in the folder before must be checked again.
-    pub(in crate::sweep) fn share(&self) {
+    pub(crate) fn share(&self) {
         let Some(file) = &self.file else { return };
         self.release();
         // Any other error: the file system has no locks.
@@ -131,7 +131,7 @@ impl FolderLock {
     }
 
     /// Gives the lock back.
-    pub(in crate::sweep) fn release(&self) {
+    pub(crate) fn release(&self) {
         if let Some(file) = &self.file {
             // Where there are no locks, none is held.
             let _ = file.unlock();

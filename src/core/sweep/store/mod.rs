@@ -13,7 +13,7 @@ pub mod difference;
 pub mod entry;
 mod error;
 pub mod files;
-pub(in crate::sweep) mod folder_lock;
+pub(crate) mod folder_lock;
 mod listing;
 pub mod log;
 pub mod manifest;
@@ -40,16 +40,16 @@ use crate::sweep::store::records::Records;
 /// A folder that holds the results of one sweep.
 #[derive(Debug, Clone)]
 pub struct Store {
-    pub(in crate::sweep) folder: PathBuf,
-    pub(in crate::sweep) sweep_hash: String,
+    pub(crate) folder: PathBuf,
+    pub(crate) sweep_hash: String,
     /// The resolved file as it was when the folder was opened.
-    pub(in crate::sweep) resolved: Arc<str>,
+    pub(crate) resolved: Arc<str>,
     manifest: Arc<Manifest>,
     records: Arc<Records>,
     /// Of a process that computes: see [`Self::claim`].
     claim: Arc<OnceLock<FolderLock>>,
     /// The resolved file as it was last found to be of this sweep.
-    pub(in crate::sweep) checked: Arc<Mutex<Option<FileVersion>>>,
+    pub(crate) checked: Arc<Mutex<Option<FileVersion>>>,
 }
 
 /// Where the records of a sweep are: in its folder, or in memory.
@@ -61,7 +61,7 @@ pub struct Archive<'a> {
 
 impl Archive<'_> {
     /// As [`Store::claim`]; nobody else has records in memory.
-    pub(in crate::sweep) fn claim(self, alone: bool) -> Result<(), StoreError> {
+    pub(crate) fn claim(self, alone: bool) -> Result<(), StoreError> {
         self.store.map_or(Ok(()), |store| store.claim(alone))
     }
 }
@@ -87,7 +87,7 @@ impl<'a> From<&'a Records> for Archive<'a> {
 /// What differs between a file and any that has taken its place: when it was written, its length, and where the file system has
 /// such numbers, its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::sweep) struct FileVersion {
+pub(crate) struct FileVersion {
     modified: Option<SystemTime>,
     length: u64,
     number: u64,
@@ -354,7 +354,7 @@ impl Store {
     }
 
     /// Whether the folder is of this sweep still. The plan is read again only where its file is another one than was last read.
-    pub(in crate::sweep) fn check_plan(&self) -> Result<(), StoreError> {
+    pub(crate) fn check_plan(&self) -> Result<(), StoreError> {
         // What takes the file's place after this is seen at the next look.
         let found = FileVersion::of(&self.folder.join(RESOLVED));
         let mut checked = self.checked.lock().unwrap_or_else(PoisonError::into_inner);
@@ -375,7 +375,7 @@ impl Store {
     }
 
     /// Removes checkpoints: those of a case by its name, or all.
-    pub(in crate::sweep) fn remove_checkpoints(&self, case: &str) {
+    pub(crate) fn remove_checkpoints(&self, case: &str) {
         // Left behind, they cost nothing but their place.
         let _ = self
             .manifest

@@ -8,8 +8,7 @@ use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use serde::Serialize;
 
-use crate::sweep::plan::SweepPlan;
-use crate::sweep::plan::scenario::ScenarioPlan;
+use crate::sweep::plan::SolverPlan;
 use crate::sweep::store::listing::{Kind, PROGRAM, RUN};
 use crate::sweep::store::{Store, StoreError};
 
@@ -86,48 +85,22 @@ impl Stopwatch {
         }
     }
 
-    /// Writes the file: `run.json`, or `run-K-of-N.json` for a shard.
+    /// Writes the file: `run.json`, or `run-K-of-N.json` for a shard. `cycle_tolerance`: of what looks for stabilised cycles.
     ///
     /// # Errors
     /// [`StoreError`] with the path.
     pub fn write(
         &self,
         store: &Store,
-        plan: &SweepPlan,
+        solver: &SolverPlan,
+        cycle_tolerance: Option<f64>,
         circumstances: &Circumstances,
     ) -> Result<(), StoreError> {
         let computation = Computation {
-            engine: plan.solver.engine.name(),
-            cycle_tolerance: Some(plan.cycle.tolerance),
-            solver_tolerance: plan.solver.tolerance,
+            engine: solver.engine.name(),
+            cycle_tolerance,
+            solver_tolerance: solver.tolerance,
         };
-        self.write_of(store, computation, circumstances)
-    }
-
-    /// The same of a scenario.
-    ///
-    /// # Errors
-    /// [`StoreError`] with the path.
-    pub fn write_scenario(
-        &self,
-        store: &Store,
-        plan: &ScenarioPlan,
-        circumstances: &Circumstances,
-    ) -> Result<(), StoreError> {
-        let computation = Computation {
-            engine: plan.solver.engine.name(),
-            cycle_tolerance: None,
-            solver_tolerance: plan.solver.tolerance,
-        };
-        self.write_of(store, computation, circumstances)
-    }
-
-    fn write_of(
-        &self,
-        store: &Store,
-        computation: Computation,
-        circumstances: &Circumstances,
-    ) -> Result<(), StoreError> {
         let name = match &circumstances.shard {
             Some(shard) => format!("run-{}.json", shard.replace('/', "-of-")),
             None => RUN.to_owned(),
@@ -167,7 +140,7 @@ pub(super) fn json(path: &Path, value: &impl Serialize) -> Result<Vec<u8>, Store
 }
 
 /// The name of this machine, where the system tells it as Linux does.
-pub(in crate::sweep) fn host() -> Option<String> {
+pub(crate) fn host() -> Option<String> {
     let name = fs::read_to_string("/proc/sys/kernel/hostname").ok()?;
     Some(name.trim().to_owned())
 }

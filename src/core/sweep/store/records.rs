@@ -61,7 +61,7 @@ pub enum Kept {
 
 impl Kept {
     /// Why a record is not used, and where it stands.
-    pub(in crate::sweep) fn refusal(&self) -> Option<String> {
+    pub(crate) fn refusal(&self) -> Option<String> {
         let (path, reason) = match self {
             Self::Intact(_) | Self::Absent => return None,
             Self::OfAnotherBuild { path, .. } => (path, OF_ANOTHER_BUILD),
@@ -265,7 +265,7 @@ impl Records {
     ///
     /// # Errors
     /// [`StoreError`] with the path.
-    pub(in crate::sweep) fn take_from(
+    pub(crate) fn take_from(
         &self,
         others: &Self,
         differs: &dyn Fn(&CaseRecord),

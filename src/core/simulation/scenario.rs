@@ -5,11 +5,13 @@ use std::sync::Arc;
 use crate::drive::{Control, Segment, SegmentedDrive};
 use crate::indenter::Indenter;
 use crate::quantity::Dimension;
+use crate::simulation::body_material::BodyMaterial;
 use crate::sweep::figures::figure_plan::FigurePlan;
-use crate::sweep::plan::body_material::BodyMaterial;
+use crate::sweep::plan::check::{PlanError, check_count};
 use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::resolved::{self, entry, numbers, quoted};
 use crate::sweep::plan::{EngineKind, SolverPlan};
+use crate::sweep::scales::elastic::{ElasticScale, NoScale};
 
 /// Everything a simulation needs to know. Two equal plans give equal results, bit for bit.
 #[derive(Debug, Clone)]
@@ -51,6 +53,32 @@ impl ScenarioPlan {
             output: OutputPlan::default(),
             figures: FigurePlan::default(),
         }
+    }
+}
+
+impl ScenarioPlan {
+    /// Checks every value that is not checked where it is made. Times are checked with the time steps, by
+    /// [`crate::simulation::Simulation::new`].
+    ///
+    /// # Errors
+    /// [`PlanError`] with the first value that is refused.
+    pub fn check(&self) -> Result<(), PlanError> {
+        let cells = self.output.field_cells;
+        check_count("cells of a field", cells, &SolverPlan::CELLS)?;
+        self.contact.check()?;
+        self.solver.check()
+    }
+}
+
+impl ScenarioPlan {
+    /// Units of the elastic contact under the largest value of the drive.
+    ///
+    /// # Errors
+    /// [`NoScale`].
+    pub fn elastic_scale(&self) -> Result<ElasticScale, NoScale> {
+        let material = self.contact.material.series().ok_or(NoScale::Samples)?;
+        let largest = self.drive.maximum() + self.drive.pull_off_n();
+        ElasticScale::new(&self.contact, material, self.drive.control(), largest)
     }
 }
 

@@ -9,10 +9,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::cycle::{self, LoopAnalysis};
 use crate::drive::Segment;
-use crate::sweep::history::HistoryRow;
-use crate::sweep::history::between::{self, SAME};
-use crate::sweep::history::errors::Plan;
-use crate::sweep::plan::scenario::ScenarioPlan;
+use crate::simulation::HistoryRow;
+use crate::simulation::between::{self, SAME};
+use crate::simulation::errors::Plan;
+use crate::simulation::scenario::ScenarioPlan;
 
 /// One cycle of one sine segment.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -56,7 +56,7 @@ const SAMPLES: usize = 200;
 const FEWEST_ROWS: usize = 12;
 
 /// Every whole cycle of every sine segment, as far as the rows go.
-pub(in crate::sweep) fn of(plan: &ScenarioPlan, rows: &[HistoryRow]) -> Vec<HistoryCycle> {
+pub(super) fn of(plan: &ScenarioPlan, rows: &[HistoryRow]) -> Vec<HistoryCycle> {
     let segments = plan.drive.segments().iter().enumerate();
     segments
         .flat_map(|(index, segment)| match segment {
@@ -71,11 +71,7 @@ pub(in crate::sweep) fn of(plan: &ScenarioPlan, rows: &[HistoryRow]) -> Vec<Hist
 }
 
 /// Adds the errors that the same cycles at coarser resolutions tell.
-pub(in crate::sweep) fn add_errors(
-    cycles: &mut [HistoryCycle],
-    coarser: &[Vec<HistoryCycle>],
-    plan: &Plan,
-) {
+pub(super) fn add_errors(cycles: &mut [HistoryCycle], coarser: &[Vec<HistoryCycle>], plan: &Plan) {
     type Value = fn(&CycleNumbers) -> Option<f64>;
     for (place, cycle) in cycles.iter_mut().enumerate() {
         let error = |value: Value| {

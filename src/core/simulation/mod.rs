@@ -1,4 +1,4 @@
-//! One drive history from its beginning to its end: the march, and what is kept of it.
+//! One drive history from its beginning to its end: what is asked for ([`scenario`]), the march, and what is kept of it.
 //!
 //! # Out of contact
 //!
@@ -10,11 +10,13 @@
 //! begins or ends count, provided that the load is above zero on the other side.
 
 pub mod between;
+pub mod body_material;
 pub mod checkpoint;
 pub mod cycles;
 pub mod errors;
 mod follow;
 pub mod outside_model;
+pub mod scenario;
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -25,14 +27,14 @@ use crate::contact::ContactError;
 use crate::contact::surface::Surface;
 use crate::drive::{Control, Fineness, MAX_MOMENTS, Schedule, Steps};
 use crate::quantity::{Dimension, format_human};
+use crate::simulation::body_material::Compliance;
+use crate::simulation::checkpoint::{HistoryCheckpoint, HistoryState};
+use crate::simulation::cycles::HistoryCycle;
+use crate::simulation::errors::{Followed, Plan, RowErrors};
+use crate::simulation::follow::{Course, MarchError, Run};
+use crate::simulation::scenario::ScenarioPlan;
 use crate::sweep::engine::setup::{SetupError, check_direct_sum};
 use crate::sweep::engine::{self, EngineBuilder, LargestContact, MAX_GROWTHS, missed_contact};
-use crate::sweep::history::checkpoint::{HistoryCheckpoint, HistoryState};
-use crate::sweep::history::cycles::HistoryCycle;
-use crate::sweep::history::errors::{Followed, Plan, RowErrors};
-use crate::sweep::history::follow::{Course, MarchError, Run};
-use crate::sweep::plan::body_material::Compliance;
-use crate::sweep::plan::scenario::ScenarioPlan;
 
 /// A scenario, ready to run.
 pub struct Simulation {
@@ -428,8 +430,8 @@ mod tests {
     use crate::indenter::{Axisymmetric, Indenter, Parameter, Sphere};
     use crate::material::library;
 
-    use crate::sweep::history::follow::is_floating;
-    use crate::sweep::plan::scenario::OutputPlan;
+    use crate::simulation::follow::is_floating;
+    use crate::simulation::scenario::OutputPlan;
     use crate::sweep::store::Store;
 
     /// (time, whether the approach is undefined) at every unloaded moment.

@@ -9,7 +9,7 @@
 use std::collections::HashMap;
 
 use crate::drive::Fineness;
-use crate::sweep::history::HistoryRow;
+use crate::simulation::HistoryRow;
 use crate::sweep::plan::{EngineKind, SolverPlan};
 use crate::sweep::record::error_bars::{Ladder, Pair, ROUNDING, SAFETY};
 
@@ -23,9 +23,9 @@ pub struct RowErrors {
 }
 
 /// What tells the errors of a history, which is the first of the resolutions.
-pub(in crate::sweep) struct Plan {
+pub(super) struct Plan {
     /// How fine the steps are, and springs, or cells along the longer side.
-    pub(in crate::sweep) resolutions: Vec<(Fineness, usize)>,
+    pub(super) resolutions: Vec<(Fineness, usize)>,
     /// In steps, and in nodes, by places among the resolutions.
     ladders: [Ladder<usize>; 2],
     node_orders: [(f64, f64); 4],
@@ -40,7 +40,7 @@ const NODES: f64 = 0.7;
 const LEAST_NODES: usize = 6;
 
 /// The nodes of the plan, and those of the two coarser levels; `None` where they are too few.
-pub(in crate::sweep) fn coarser_nodes(solver: &SolverPlan) -> Option<[usize; 3]> {
+pub(super) fn coarser_nodes(solver: &SolverPlan) -> Option<[usize; 3]> {
     // An even number of cells keeps the symmetry of a quarter.
     let step = match solver.engine {
         EngineKind::Axisymmetric => 1,
@@ -73,18 +73,14 @@ const SPRING_ORDERS: [(f64, f64); 4] = [(1.0, 2.0), (1.0, 2.0), (0.3, 1.0), (0.3
 const CELL_ORDERS: [(f64, f64); 4] = [(1.0, 1.5), (1.0, 1.5), (0.3, 1.0), (0.3, 1.0)];
 
 /// What a resolution came to: its rows, and the row of the history that each is.
-pub(in crate::sweep) struct Followed<'a> {
-    pub(in crate::sweep) rows: &'a [HistoryRow],
-    pub(in crate::sweep) in_full: &'a [Option<usize>],
+pub(super) struct Followed<'a> {
+    pub(super) rows: &'a [HistoryRow],
+    pub(super) in_full: &'a [Option<usize>],
 }
 
 impl Plan {
     /// `can_be_coarser`: whether there are steps to leave out; otherwise they are halved instead.
-    pub(in crate::sweep) fn new(
-        can_be_coarser: bool,
-        engine: EngineKind,
-        nodes: [usize; 3],
-    ) -> Self {
+    pub(super) fn new(can_be_coarser: bool, engine: EngineKind, nodes: [usize; 3]) -> Self {
         let [all, fewer, least] = nodes;
         let full = Fineness::FULL;
         let pair = |finer, coarser, ratio| Pair {
@@ -155,7 +151,7 @@ impl Plan {
 
     /// The error of a number that the history gives as a whole, from what every resolution gives for it; `None` where one of them has
     /// none.
-    pub(in crate::sweep) fn error_of_whole(&self, values: &[Option<f64>]) -> Option<f64> {
+    pub(super) fn error_of_whole(&self, values: &[Option<f64>]) -> Option<f64> {
         let at = |level: usize| values.get(level).copied().flatten();
         self.error(at(0)?, self.node_orders[1], |pair| {
             Some((at(pair.finer)? - at(pair.coarser)?).abs())
@@ -163,7 +159,7 @@ impl Plan {
     }
 
     /// Errors of every row of the history, the first of the resolutions.
-    pub(in crate::sweep) fn errors(&self, followed: &[Followed<'_>]) -> Vec<RowErrors> {
+    pub(super) fn errors(&self, followed: &[Followed<'_>]) -> Vec<RowErrors> {
         let Some(history) = followed.first() else {
             return Vec::new();
         };

@@ -3,11 +3,11 @@
 use crate::drive::{Segment, SegmentedDrive};
 use crate::material::ModulusKind;
 use crate::material::tabulated::TableWarning;
+use crate::simulation::body_material::BodyMaterial;
+use crate::simulation::scenario::ScenarioPlan;
+use crate::simulation::{HistoryRow, SimulationOutcome};
 use crate::sweep::engine::domain;
 use crate::sweep::engine::slope::{Patch, ROUNDING, of_slope, slope_of_body};
-use crate::sweep::history::{HistoryRow, SimulationOutcome};
-use crate::sweep::plan::body_material::BodyMaterial;
-use crate::sweep::plan::scenario::ScenarioPlan;
 use crate::sweep::record::warning::Warning;
 
 /// What is to be said of a history, as far as it came.

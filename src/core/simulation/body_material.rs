@@ -30,14 +30,14 @@ impl From<Sampled> for BodyMaterial {
 
 /// A contact compliance C(t) as a march takes it.
 #[derive(Debug, Clone, PartialEq)]
-pub(in crate::sweep) enum Compliance {
+pub(super) enum Compliance {
     Series(Creep),
     Samples(Interpolant),
 }
 
 impl Compliance {
     /// The largest value (1/Pa) from the beginning to `end_s`: the last, since neither falls.
-    pub(in crate::sweep) fn largest_per_pa(&self, end_s: f64) -> f64 {
+    pub(super) fn largest_per_pa(&self, end_s: f64) -> f64 {
         match self {
             Self::Series(creep) => creep.compliance(end_s),
             Self::Samples(curve) => curve.value(end_s),
@@ -95,7 +95,7 @@ impl BodyMaterial {
     ///
     /// # Errors
     /// As [`Material::contact_compliance`].
-    pub(in crate::sweep) fn compliance(&self) -> Result<Compliance, MaterialError> {
+    pub(super) fn compliance(&self) -> Result<Compliance, MaterialError> {
         Ok(match self {
             Self::Series(material) => Compliance::Series(material.contact_compliance()?),
             Self::Samples(sampled) => Compliance::Samples(sampled.contact_compliance().clone()),
@@ -112,7 +112,7 @@ impl BodyMaterial {
 
     /// The shortest time (s) on which the body answers: retardation under a load, relaxation under an approach, or that of the
     /// first sample. `None` for an elastic body.
-    pub(in crate::sweep) fn shortest_time_s(&self) -> Option<f64> {
+    pub(super) fn shortest_time_s(&self) -> Option<f64> {
         match self {
             Self::Series(material) => {
                 let retardation = material.creep().branches().iter().map(|b| b.time_s);
@@ -127,7 +127,7 @@ impl BodyMaterial {
     }
 
     /// The blocks of a scenario file that give the same material again; samples are written out.
-    pub(in crate::sweep) fn text(&self) -> String {
+    pub(super) fn text(&self) -> String {
         match self {
             Self::Series(material) => resolved::material_text(material),
             Self::Samples(sampled) => samples_text(sampled),

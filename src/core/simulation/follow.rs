@@ -12,15 +12,15 @@ use crate::contact::surface::Surface;
 use crate::contact::{ContactError, Prescribed, Solution};
 use crate::drive::{Control, Moment, Schedule};
 use crate::history::{DirectMemory, Hereditary, March, StepState};
+use crate::simulation::body_material::Compliance;
+use crate::simulation::checkpoint::{HistoryCheckpoint, HistoryState};
+use crate::simulation::{HistoryRow, Level, Progress, Simulation, SurfaceRecord};
 use crate::sweep::engine::growing::{self, Layout};
 use crate::sweep::engine::{self, EngineBuilder, EngineError, MAX_GROWTHS};
-use crate::sweep::history::checkpoint::{HistoryCheckpoint, HistoryState};
-use crate::sweep::history::{HistoryRow, Level, Progress, Simulation, SurfaceRecord};
-use crate::sweep::plan::body_material::Compliance;
 
 /// Why a march ended early.
 #[derive(Debug, thiserror::Error)]
-pub(in crate::sweep) enum MarchError {
+pub(super) enum MarchError {
     #[error(transparent)]
     Contact(#[from] ContactError),
     #[error(transparent)]
@@ -32,16 +32,16 @@ pub(in crate::sweep) enum MarchError {
 
 /// A history as far as it was followed at one resolution.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(in crate::sweep) struct Course {
-    pub(in crate::sweep) rows: Vec<HistoryRow>,
+pub(super) struct Course {
+    pub(super) rows: Vec<HistoryRow>,
     /// Profiles, then fields, in the order in which they were asked for.
-    pub(in crate::sweep) surfaces: [Vec<Option<SurfaceRecord>>; 2],
+    pub(super) surfaces: [Vec<Option<SurfaceRecord>>; 2],
     /// How often the contact moved to a domain twice as wide.
-    pub(in crate::sweep) growths: usize,
+    pub(super) growths: usize,
     /// Contact iterations over all moments.
-    pub(in crate::sweep) iterations: u64,
+    pub(super) iterations: u64,
     /// Why it ended early, where it did.
-    pub(in crate::sweep) failed: Option<String>,
+    pub(super) failed: Option<String>,
 }
 
 /// What a run hands to every resolution.

@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::surface::Surface;
 use crate::history::StepState;
-use crate::sweep::history::SurfaceRecord;
-use crate::sweep::history::follow::Course;
+use crate::simulation::SurfaceRecord;
+use crate::simulation::follow::Course;
 use crate::sweep::store::Store;
 use crate::sweep::store::checkpoint_file::{CheckpointFile, Rhythm, Unusable};
 
@@ -34,9 +34,9 @@ pub struct UnusableCheckpoint {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct HistoryState<'a> {
     /// The history at the resolutions before, at their ends.
-    pub(in crate::sweep) finished: Cow<'a, [Course]>,
-    pub(in crate::sweep) course: Cow<'a, Course>,
-    pub(in crate::sweep) step: StepState,
+    pub(super) finished: Cow<'a, [Course]>,
+    pub(super) course: Cow<'a, Course>,
+    pub(super) step: StepState,
 }
 
 impl HistoryState<'_> {
@@ -96,12 +96,12 @@ impl HistoryCheckpoint {
     }
 
     /// Whether it is time to write.
-    pub(in crate::sweep) fn is_due(&self) -> bool {
+    pub(super) fn is_due(&self) -> bool {
         self.rhythm.is_wanted() && self.rhythm.is_due()
     }
 
     /// Writes the state, unless so little has been done that it is not worth it.
-    pub(in crate::sweep) fn write(&self, state: &HistoryState<'_>) {
+    pub(super) fn write(&self, state: &HistoryState<'_>) {
         if self.rhythm.is_wanted() {
             self.rhythm.written(|| self.file.write(state));
         }
@@ -120,7 +120,7 @@ mod tests {
     use crate::contact::half_space::grid::Grid;
     use crate::contact::surface::{CellSurface, RadialSurface};
     use crate::history::{Extrapolation, PastState, Work};
-    use crate::sweep::history::HistoryRow;
+    use crate::simulation::HistoryRow;
     use crate::sweep::store::checkpoint_file;
     use std::fs;
 

@@ -2,7 +2,7 @@
 
 use crate::drive::SegmentedDrive;
 use crate::numerics::polynomial::lagrange;
-use crate::sweep::history::HistoryRow;
+use crate::simulation::HistoryRow;
 
 /// Times closer than this part of what they lie in are the same.
 pub(super) const SAME: f64 = 1e-9;
