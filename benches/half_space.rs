@@ -15,11 +15,12 @@ use contact_dma::contact::half_space::convolution::Convolution;
 use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::contact::{Engine, Instant, Prescribed};
 use contact_dma::drive::HarmonicDrive;
+use contact_dma::engine::EngineKind;
 use contact_dma::history::{March, TimeRule};
 use contact_dma::indenter::Sphere;
 use contact_dma::material::library;
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::plan::{EngineKind, SweepPlan};
+use contact_dma::sweep::plan::SweepPlan;
 
 /// Width (m) of a domain of four radii of the largest contact under this load.
 fn width_m(load_n: f64) -> f64 {

@@ -12,11 +12,12 @@ use std::sync::atomic::AtomicBool;
 
 use common::{LOAD_N, RADIUS_M, numbers, peak_mib, timed};
 use contact_dma::drive::HarmonicDrive;
+use contact_dma::engine::EngineKind;
 use contact_dma::history::TimeRule;
 use contact_dma::indenter::Sphere;
 use contact_dma::material::library;
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::plan::{EngineKind, Method, SweepPlan};
+use contact_dma::sweep::plan::{Method, SweepPlan};
 use contact_dma::sweep::record::CaseRecord;
 
 const OMEGA_RAD_PER_S: f64 = 0.01;

@@ -62,6 +62,7 @@
 //! | [`cycle`] | signals of one cycle, measured or computed |
 //! | [`steady`] | the stabilised cycle found directly |
 //! | [`mod@reference`] | closed forms and slow independent solvers; of the production modules only `reproduction` uses it |
+//! | [`engine`] | engines for an indenter, on a domain that holds the contact |
 //! | [`sweep`] | plans, cases in parallel, records on disk, peaks |
 //! | [`simulation`] | one drive history from its beginning to its end |
 //! | [`measured`] | measured loops: frequency, drift, cycles, corrections, moduli; uses the exact model for the bias of the small-amplitude formula |
@@ -83,8 +84,8 @@
 
 #[doc(inline)]
 pub use contact_dma_core::{
-    contact, cycle, drive, history, identify, indenter, material, measured, numerics, prelude,
-    quantity, reference, simulation, steady, sweep,
+    contact, cycle, drive, engine, history, identify, indenter, material, measured, numerics,
+    prelude, quantity, reference, simulation, steady, sweep,
 };
 
 #[cfg(feature = "cli")]

@@ -13,13 +13,14 @@ use contact_dma::contact::half_space::convolution::Convolution;
 use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::contact::half_space::{HalfSpace, SolverSettings, predicted_memory_bytes};
 use contact_dma::drive::HarmonicDrive;
+use contact_dma::engine::EngineKind;
 use contact_dma::history::{March, TimeRule};
 use contact_dma::indenter::{Indenter, Shifted, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch, library};
 use contact_dma::sweep::Sweep;
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::case::checkpoint::Checkpoints;
-use contact_dma::sweep::plan::{EngineKind, Method, SweepPlan};
+use contact_dma::sweep::plan::{Method, SweepPlan};
 use contact_dma::sweep::store::Store;
 use contact_dma::sweep::store::entry::Purpose;
 

@@ -6,12 +6,13 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::{Ended, Failure, write_out};
+use crate::engine::EngineKind;
 use crate::material::Material;
 use crate::material::fit::{Fit, FitReport};
 use crate::report::comparison::Comparison;
 use crate::report::material::MaterialReport;
 use crate::sweep::case::Setup;
-use crate::sweep::plan::{AxisValues, EngineKind, SweepPlan, resolved};
+use crate::sweep::plan::{AxisValues, SweepPlan, resolved};
 use crate::sweep::share::cost::Cost;
 
 /// Prints one object.

@@ -7,12 +7,13 @@ use clap::Args;
 
 use super::arguments::OutputFormat;
 use super::{Ended, Failure, json, meant_for, open_document, tell};
+use crate::engine::{EngineKind, SolverPlan};
 use crate::indenter::Indenter;
 use crate::input::sweep_file;
 use crate::quantity::{Dimension, format_human};
 use crate::report::number::{four_digits, varied};
 use crate::sweep::case::Setup;
-use crate::sweep::plan::{Axes, Condition, EngineKind, SolverPlan, SweepPlan};
+use crate::sweep::plan::{Axes, Condition, SweepPlan};
 use crate::sweep::share::cost::Cost;
 
 #[derive(Debug, Args)]

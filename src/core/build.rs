@@ -15,7 +15,7 @@ use std::{env, fs, io};
 use sha2::{Digest, Sha256};
 
 /// The modules that make numbers.
-const MODULES: [&str; 11] = [
+const MODULES: [&str; 12] = [
     "numerics",
     "quantity",
     "material",
@@ -25,6 +25,7 @@ const MODULES: [&str; 11] = [
     "history",
     "cycle",
     "steady",
+    "engine",
     "sweep",
     "simulation",
 ];

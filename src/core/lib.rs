@@ -6,6 +6,7 @@
 pub mod contact;
 pub mod cycle;
 pub mod drive;
+pub mod engine;
 pub mod history;
 pub mod identify;
 pub mod indenter;

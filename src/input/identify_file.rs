@@ -54,7 +54,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<IdentifyPlan, Dia
         let cycle = root.table_or(&MODEL_CYCLE, IdentifyPlan::CYCLE, cycle);
         let layer = bodies.as_ref().and_then(|bodies| bodies.layer);
         let default = indenter.as_deref();
-        let default = default.map(|indenter| IdentifyPlan::solver(indenter, layer));
+        let default = default.map(|indenter| IdentifyPlan::solver(indenter, layer.is_some()));
         let solver = layer_block::solver(root, layer.is_some(), default.unwrap_or_default());
         let measured = measured?;
         let bodies = bodies?;

@@ -5,9 +5,9 @@ use super::keys;
 use super::keys::layer::{BASE, BASE_MODULUS_RATIO, BASE_POISSON_RATIO, THICKNESS};
 use super::keys::settings::{ENGINE, SOLVER_CELLS, SOLVER_SPRINGS, SOLVER_TOLERANCE, TIME_RULE};
 use crate::contact::half_space::layer::{Base, YieldingBase};
-use crate::sweep::engine::EngineError;
+use crate::engine::EngineError;
+use crate::engine::{EngineKind, SolverPlan};
 use crate::sweep::plan::layer::LayerPlan;
-use crate::sweep::plan::{EngineKind, SolverPlan};
 
 /// Reads the block; `None` where a problem was reported.
 pub(super) fn read(mut table: TableReader<'_>) -> Option<LayerPlan> {

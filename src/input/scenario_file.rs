@@ -12,6 +12,7 @@ use super::keys::settings::{FIELD_CELLS, FIELDS_AT, OUTPUT_ERROR_BARS, PROFILES_
 use super::material_table::DirectSum;
 use super::{bodies_block, layer_block, material_block, segments_block};
 use crate::drive::SegmentedDrive;
+use crate::engine::{EngineKind, SolverPlan};
 use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::quantity::{Dimension, format_human};
@@ -19,7 +20,6 @@ use crate::simulation::body_material::BodyMaterial;
 use crate::simulation::scenario::{OutputPlan, ScenarioPlan};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::contact::ContactPlan;
-use crate::sweep::plan::{EngineKind, SolverPlan};
 
 /// The plan that a scenario file asks for.
 ///
@@ -55,7 +55,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Dia
         let step_s = root.table_or(&keys::TIME, None, time);
         let default = indenter
             .as_deref()
-            .map(|indenter| SolverPlan::of(indenter, layer));
+            .map(|indenter| SolverPlan::of(indenter, layer.is_some()));
         let solver = layer_block::solver(root, layer.is_some(), default.unwrap_or_default());
         let output = root.table_or(&keys::OUTPUT, OutputPlan::default(), |t| {
             output(t, drive.as_ref(), solver.as_ref())

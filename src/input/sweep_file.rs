@@ -17,10 +17,11 @@ use super::keys::settings::{
     AT_CYCLE, CYCLE_ACCURACY, CYCLE_ERROR_BARS, CYCLE_STEPS, CYCLE_TOLERANCE, MAX_CYCLES, METHOD,
 };
 use super::{harmonic_block, keys, layer_block};
+use crate::engine::SolverPlan;
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::axes::MOST as MOST_AXES;
-use crate::sweep::plan::{CyclePlan, Method, SolverPlan, SweepPlan};
+use crate::sweep::plan::{CyclePlan, Method, SweepPlan};
 use crate::sweep::scales::elastic::ElasticScale;
 use conditions::Blocks;
 
@@ -54,7 +55,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
             let on_cells = over
                 .all()
                 .find(|indenter| indenter.axisymmetric().is_none());
-            SolverPlan::of(on_cells.unwrap_or(&over.own).as_ref(), layer)
+            SolverPlan::of(on_cells.unwrap_or(&over.own).as_ref(), layer.is_some())
         });
         let solver = layer_block::solver(root, layer.is_some(), default.unwrap_or_default());
         let frequencies = sweep.map(|axes| axes.angular_frequencies_rad_per_s.as_slice());

@@ -2,6 +2,7 @@
 
 use super::number::plain;
 use super::words::{self, adhesion_line, compressibility, drive_line, range, row, varied_line};
+use crate::engine::{EngineKind, SolverPlan};
 use crate::indenter::{Indenter, Value};
 use crate::material::Material;
 use crate::material::dynamic::replicas::SIMULTANEOUS_DEVIATIONS;
@@ -10,7 +11,7 @@ use crate::simulation::SimulationOutcome;
 use crate::simulation::scenario::ScenarioPlan;
 use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::layer::LayerPlan;
-use crate::sweep::plan::{Block, EngineKind, Method, SolverPlan, SweepPlan, Varied};
+use crate::sweep::plan::{Block, Method, SweepPlan, Varied};
 use crate::sweep::search::run::Outcome;
 
 /// What a figure itself has to say.

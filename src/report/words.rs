@@ -4,12 +4,13 @@ use std::cmp::Ordering;
 
 use super::number::{self, four_digits, plain, scientific};
 use crate::drive::HarmonicDrive;
+use crate::engine::EngineKind;
 use crate::indenter::{Parameter, Value};
 use crate::material::{Compressibility, Material, Relaxation};
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::plan::adhesion::AdhesionPlan;
 use crate::sweep::plan::resolved::drive_dimension;
-use crate::sweep::plan::{Block, Condition, EngineKind, SweepPlan, Varied};
+use crate::sweep::plan::{Block, Condition, SweepPlan, Varied};
 use crate::sweep::search::run::Outcome;
 
 /// A case by its frequency (rad/s): `ω = 0.01000 rad/s`.

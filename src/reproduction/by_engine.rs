@@ -5,9 +5,9 @@ use std::sync::atomic::AtomicBool;
 
 use super::{ReproductionError, Result};
 use crate::drive::{Segment, SegmentedDrive};
+use crate::engine::EngineKind;
 use crate::simulation::scenario::ScenarioPlan;
 use crate::simulation::{Simulation, SimulationEnd, SimulationOutcome};
-use crate::sweep::plan::EngineKind;
 
 /// One thing exactly and by both engines.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -10,9 +10,10 @@ use super::stabilised::{Stabilised, by_sweep, stabilised};
 use super::{Figure, Plans, ReproductionError, Result, Scale, figure_08_09, figure_10_12};
 use crate::contact::surface::Surface;
 use crate::cycle::{self, Extrema, Loop};
+use crate::engine::EngineKind;
 use crate::reference::steady::HarmonicContact;
 use crate::simulation::scenario::ScenarioPlan;
-use crate::sweep::plan::{EngineKind, SweepPlan};
+use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::CaseResult;
 
 /// Time steps per cycle on cells.

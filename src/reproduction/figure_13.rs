@@ -12,10 +12,11 @@ use super::number::Data;
 use super::stabilised::{by_sweep, stabilised};
 use super::{Claim, Figure, Measure, Plans, ReproductionError, Result, Source};
 use crate::cycle;
+use crate::engine::EngineKind;
 use crate::report::chart::{Axis, Chart, LegendPlace, LineStyle, Mark, Marker, Series};
 use crate::report::table::cells;
 use crate::simulation::scenario::ScenarioPlan;
-use crate::sweep::plan::{EngineKind, SweepPlan};
+use crate::sweep::plan::SweepPlan;
 use crate::sweep::search::peak as search;
 
 /// Where the paper has its maximum, and what it shows at the highest frequency (rad/s).

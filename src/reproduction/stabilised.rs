@@ -10,11 +10,12 @@ use super::{ReproductionError, Result};
 use crate::contact::surface::Surface;
 use crate::contact::{Engine, Prescribed};
 use crate::cycle::Loop;
+use crate::engine::EngineKind;
+use crate::engine::prescribed;
 use crate::history::March;
 use crate::steady::{self, SteadySettings};
 use crate::sweep::case::{Setup, sample};
-use crate::sweep::engine::prescribed;
-use crate::sweep::plan::{Case, EngineKind, SweepPlan};
+use crate::sweep::plan::{Case, SweepPlan};
 use crate::sweep::record::CaseResult;
 
 /// A stabilised cycle with its surfaces.

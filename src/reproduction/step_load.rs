@@ -13,14 +13,14 @@ use super::{
 };
 use crate::contact::Prescribed;
 use crate::contact::surface::Surface;
+use crate::engine::EngineKind;
+use crate::engine::{EngineBuilder, LargestContact};
 use crate::history::March;
 use crate::reference::step_load::StepLoad;
 use crate::report::chart::{Axis, Chart, LegendPlace, Series};
 use crate::report::table::{Cell, cells};
 use crate::simulation::SimulationOutcome;
 use crate::simulation::scenario::ScenarioPlan;
-use crate::sweep::engine::{EngineBuilder, LargestContact};
-use crate::sweep::plan::EngineKind;
 
 /// A history of one load, by both engines, beside its closed form.
 struct Held<'a> {

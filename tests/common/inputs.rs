@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
+use contact_dma::engine::EngineKind;
 use contact_dma::input::diagnostic::{Diagnostics, Styling};
 use contact_dma::input::document::Document;
 use contact_dma::input::dynamic::{self, DynamicFormat, FORMATS};
@@ -21,8 +22,8 @@ use contact_dma::simulation::checkpoint::HistoryCheckpoint;
 use contact_dma::simulation::scenario;
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::case::checkpoint::Checkpoints;
+use contact_dma::sweep::plan::Case;
 use contact_dma::sweep::plan::resolved::resolved_text;
-use contact_dma::sweep::plan::{Case, EngineKind};
 use contact_dma::sweep::search::run::Outcome;
 use contact_dma::sweep::store::Store;
 use contact_dma::sweep::store::entry::{self, Purpose};

@@ -13,11 +13,12 @@ use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
 use contact_dma::contact::{ContactError, Engine, Instant, Prescribed, Solution};
 use contact_dma::drive::HarmonicDrive;
+use contact_dma::engine::{EngineKind, SolverPlan};
 use contact_dma::indenter::Indenter;
 use contact_dma::material::classical::{Maxwell, Zener};
 use contact_dma::material::{Creep, Material, library};
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::plan::{Case, CyclePlan, EngineKind, SolverPlan, SweepPlan};
+use contact_dma::sweep::plan::{Case, CyclePlan, SweepPlan};
 use contact_dma::sweep::record::CaseRecord;
 
 /// The axisymmetric engine for this indenter: so many springs over the half width.

@@ -7,10 +7,10 @@ use std::sync::atomic::AtomicBool;
 use crate::common::{on_cells, pmma_material, run_case, springs, sweep_plan};
 use contact_dma::contact::{Engine, Instant, Prescribed};
 use contact_dma::drive::{Control, HarmonicDrive, Segment, SegmentedDrive};
+use contact_dma::engine::EngineKind;
 use contact_dma::indenter::{Asperities, Asperity, Ellipsoid, Indenter, Profile, Shifted, Sphere};
 use contact_dma::simulation::scenario::ScenarioPlan;
 use contact_dma::simulation::{Simulation, SimulationEnd, SimulationOutcome};
-use contact_dma::sweep::plan::EngineKind;
 
 fn bump(center_x_m: f64) -> Asperity {
     Asperity {

@@ -4,8 +4,9 @@
 use std::sync::Arc;
 
 use crate::common::{observed_order, pmma_material, relative, run_case, sweep_plan};
+use contact_dma::engine::EngineKind;
 use contact_dma::indenter::{Cone, FlatPunch, Indenter, Sphere};
-use contact_dma::sweep::plan::{EngineKind, SweepPlan};
+use contact_dma::sweep::plan::SweepPlan;
 use contact_dma::sweep::record::{CaseResult, SurfaceLoss};
 
 fn sphere() -> Arc<dyn Indenter> {

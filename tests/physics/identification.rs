@@ -9,12 +9,13 @@ use std::time::Instant;
 
 use crate::common::solids::Random;
 use contact_dma::drive::HarmonicDrive;
+use contact_dma::engine::{EngineKind, SolverPlan};
 use contact_dma::identify::data::{Datum, MeasuredCycle, Measurements, Number};
 use contact_dma::identify::{Driven, Identified, IdentifyError, IdentifyPlan, identify};
 use contact_dma::indenter::{Cone, Indenter, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
 use contact_dma::sweep::Sweep;
-use contact_dma::sweep::plan::{CyclePlan, EngineKind, SolverPlan, SweepPlan};
+use contact_dma::sweep::plan::{CyclePlan, SweepPlan};
 use contact_dma::sweep::record::error_bars::Quantity;
 
 const POISSON: f64 = 0.35;
@@ -208,7 +209,7 @@ fn exact_cycles_give_the_solid_back() {
         // springs in place of 64: off by what its correction of second order leaves.
         let own = (
             IdentifyPlan::CYCLE,
-            IdentifyPlan::solver(indenter.as_ref(), None),
+            IdentifyPlan::solver(indenter.as_ref(), false),
         );
         for (resolution, within) in [(Some(own), 1e-3), (None, 2e-4)] {
             let under = (Arc::clone(&indenter), drive);
@@ -278,7 +279,7 @@ fn cells_serve_as_springs_do() {
     let solver = SolverPlan {
         engine: EngineKind::HalfSpace,
         cells: 16,
-        ..IdentifyPlan::solver(indenter.as_ref(), None)
+        ..IdentifyPlan::solver(indenter.as_ref(), false)
     };
     let experiment = Experiment::losses_and_phases(0.0, false);
     let resolution = Some((cycle, solver));

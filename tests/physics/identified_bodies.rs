@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use contact_dma::contact::half_space::layer::Base;
 use contact_dma::drive::{Control, HarmonicDrive, Segment, SegmentedDrive};
+use contact_dma::engine::SolverPlan;
 use contact_dma::identify::data::{Datum, MeasuredCycle, Measurements, Number, Reading};
 use contact_dma::identify::{CellError, Driven, Identified, IdentifyPlan, identify};
 use contact_dma::indenter::{Indenter, Sphere};
@@ -16,7 +17,7 @@ use contact_dma::simulation::scenario::ScenarioPlan;
 use contact_dma::sweep::Sweep;
 use contact_dma::sweep::plan::adhesion::AdhesionPlan;
 use contact_dma::sweep::plan::layer::LayerPlan;
-use contact_dma::sweep::plan::{CyclePlan, SolverPlan, SweepPlan};
+use contact_dma::sweep::plan::{CyclePlan, SweepPlan};
 use contact_dma::sweep::record::error_bars::Quantity;
 
 const POISSON: f64 = 0.35;
@@ -63,7 +64,7 @@ impl With {
     fn solver(&self) -> SolverPlan {
         SolverPlan {
             cells: 16,
-            ..IdentifyPlan::solver(self.indenter().as_ref(), self.layer)
+            ..IdentifyPlan::solver(self.indenter().as_ref(), self.layer.is_some())
         }
     }
 

@@ -6,11 +6,11 @@ use std::sync::atomic::AtomicBool;
 
 use crate::common::solids::Random;
 use crate::identification::from_environment;
+use contact_dma::engine::EngineKind;
 use contact_dma::identify::data::{Measurements, Reading};
 use contact_dma::identify::{Driven, Identified, IdentifyError, IdentifyPlan, identify};
 use contact_dma::prelude::*;
 use contact_dma::simulation::between::values_at;
-use contact_dma::sweep::plan::EngineKind;
 
 const POISSON: f64 = 0.4;
 /// Times measured, first and last, and how many, spread evenly over their logarithms.
@@ -66,7 +66,7 @@ fn plan(
     let material = Material::from_relaxation(truth.clone(), kind, POISSON).unwrap();
     let mut scenario = ScenarioPlan::new(material, Arc::clone(&indenter), drive.clone());
     scenario.output.error_bars = false;
-    let solver = IdentifyPlan::solver(indenter.as_ref(), None);
+    let solver = IdentifyPlan::solver(indenter.as_ref(), false);
     if solver.engine == EngineKind::HalfSpace {
         scenario.solver = solver;
     }

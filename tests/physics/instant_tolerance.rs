@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use crate::common::{on_cells, run_case, sweep_plan};
+use contact_dma::engine::SolverPlan;
+use contact_dma::engine::instant_tolerance::SHARE;
 use contact_dma::indenter::{Cone, Ellipsoid, Indenter, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
-use contact_dma::sweep::plan::instant_tolerance::SHARE;
-use contact_dma::sweep::plan::{SolverPlan, SweepPlan};
+use contact_dma::sweep::plan::SweepPlan;
 use contact_dma::sweep::record::CaseRecord;
 use contact_dma::sweep::record::error_bars::Quantity;
 

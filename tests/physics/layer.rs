@@ -10,12 +10,13 @@ use contact_dma::contact::half_space::convolution::Convolution;
 use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::contact::half_space::layer::{Base, Layer, LayerInfluence, YieldingBase};
 use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
+use contact_dma::engine::{EngineBuilder, LargestContact};
+use contact_dma::engine::{EngineKind, SolverPlan};
 use contact_dma::indenter::{FlatPunch, Indenter, Sphere};
 use contact_dma::reference::layer::LayerContact;
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::engine::{EngineBuilder, LargestContact};
+use contact_dma::sweep::plan::SweepPlan;
 use contact_dma::sweep::plan::layer::LayerPlan;
-use contact_dma::sweep::plan::{EngineKind, SolverPlan, SweepPlan};
 use contact_dma::sweep::record::CaseResult;
 
 const COMPLIANCE_PER_PA: f64 = 4e-10;

@@ -9,10 +9,11 @@ use std::sync::Arc;
 use crate::common::{pmma_material, relative, run_case, sweep_plan};
 use contact_dma::contact::surface::{Along, PressureLine};
 use contact_dma::drive::{Control, HarmonicDrive};
+use contact_dma::engine::EngineKind;
 use contact_dma::indenter::{Cone, Ellipsoid, FlatPunch, Indenter, Sphere};
 use contact_dma::report::table;
 use contact_dma::report::work_line::{WorkAlong, WorkLine};
-use contact_dma::sweep::plan::{EngineKind, Method, SweepPlan};
+use contact_dma::sweep::plan::{Method, SweepPlan};
 use contact_dma::sweep::record::{CaseRecord, CaseResult, PressureProfile, Quarter};
 
 const OMEGA: f64 = 0.0084;

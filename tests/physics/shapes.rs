@@ -11,6 +11,7 @@ use contact_dma::contact::half_space::convolution::Convolution;
 use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
 use contact_dma::contact::{ContactError, Engine, Instant, Prescribed, Solution};
+use contact_dma::engine::domain;
 use contact_dma::history::{March, TimeRule};
 use contact_dma::indenter::{
     Asperities, Asperity, Cone, Ellipsoid, HeightMap, Indenter, MapEdge, MapQuantity, PowerLaw,
@@ -23,7 +24,6 @@ use contact_dma::reference::elastic::{ConeContact, Hertz};
 use contact_dma::reference::elliptic::EllipticHertz;
 use contact_dma::reference::power_law::PowerLawContact;
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::engine::domain;
 use contact_dma::sweep::plan::resolved;
 use contact_dma::sweep::record::{CaseRecord, Status};
 
@@ -870,7 +870,7 @@ fn a_file_that_changed_since_the_resolved_sweep_was_written_is_refused() {
 
 #[test]
 fn the_engine_is_chosen_by_the_shape_and_a_wrong_choice_is_explained() {
-    use contact_dma::sweep::plan::EngineKind;
+    use contact_dma::engine::EngineKind;
     let folder = tempfile::TempDir::new().unwrap();
     write(
         folder.path(),

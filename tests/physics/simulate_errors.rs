@@ -7,12 +7,12 @@ use std::sync::atomic::AtomicBool;
 
 use crate::common::solids::Random;
 use contact_dma::drive::{Control, Fineness, Segment, SegmentedDrive};
+use contact_dma::engine::EngineKind;
 use contact_dma::indenter::{Cone, Indenter, PowerLaw, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
 use contact_dma::simulation::errors::RowErrors;
 use contact_dma::simulation::scenario::ScenarioPlan;
 use contact_dma::simulation::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome};
-use contact_dma::sweep::plan::EngineKind;
 use rayon::prelude::*;
 
 /// One to four branches, whose moduli add up to a third to a hundred thousand times the equilibrium modulus, over up to six

@@ -9,13 +9,14 @@ use crate::common::{
 };
 use contact_dma::contact::Prescribed;
 use contact_dma::drive::{Control, HarmonicDrive};
+use contact_dma::engine::EngineKind;
 use contact_dma::history::TimeRule;
 use contact_dma::indenter::{Cone, FlatPunch, Indenter, Sphere};
 use contact_dma::material::Material;
 use contact_dma::reference::elastic::flat_punch_approach_m;
 use contact_dma::reference::steady::HarmonicContact;
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::plan::{EngineKind, Method, SweepPlan};
+use contact_dma::sweep::plan::{Method, SweepPlan};
 use contact_dma::sweep::record::{CaseResult, Status};
 use contact_dma::sweep::search::peak;
 

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use crate::common::{relative, run_case, sweep_plan};
+use contact_dma::engine::EngineKind;
 use contact_dma::indenter::Sphere;
 use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
-use contact_dma::sweep::plan::EngineKind;
 use contact_dma::sweep::record::{CaseRecord, Status};
 
 /// How many of a unit make one of SI.

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules from top to bottom: those of the package in `src/core`, then those of the program.
-const MODULES: [&str; 19] = [
+const MODULES: [&str; 20] = [
     "numerics",
     "quantity",
     "material",
@@ -15,6 +15,7 @@ const MODULES: [&str; 19] = [
     "cycle",
     "steady",
     "reference",
+    "engine",
     "sweep",
     "simulation",
     "measured",
@@ -27,8 +28,8 @@ const MODULES: [&str; 19] = [
 ];
 
 /// Folders of the module `sweep` from top to bottom.
-const SWEEP: [&str; 9] = [
-    "figures", "plan", "record", "engine", "store", "case", "scales", "share", "search",
+const SWEEP: [&str; 8] = [
+    "figures", "plan", "record", "store", "case", "scales", "share", "search",
 ];
 
 /// Parts of the module `report` from top to bottom.

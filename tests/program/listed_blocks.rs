@@ -6,12 +6,13 @@ use std::fs;
 use std::sync::atomic::AtomicBool;
 
 use crate::program::{program, write};
+use contact_dma::engine::EngineKind;
 use contact_dma::input::diagnostic::Styling;
 use contact_dma::input::document::Document;
 use contact_dma::input::sweep_file;
 use contact_dma::sweep::case::Setup;
+use contact_dma::sweep::plan::SweepPlan;
 use contact_dma::sweep::plan::resolved::resolved_text;
-use contact_dma::sweep::plan::{EngineKind, SweepPlan};
 use contact_dma::sweep::record::CaseResult;
 use tempfile::TempDir;
 

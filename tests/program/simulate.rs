@@ -16,14 +16,14 @@ use contact_dma::contact::surface::Surface;
 use contact_dma::contact::{Engine, Prescribed};
 use contact_dma::drive::Control;
 use contact_dma::drive::Moment;
+use contact_dma::engine::{EngineBuilder, LargestContact};
+use contact_dma::engine::{EngineKind, SolverPlan};
 use contact_dma::history::{March, TimeRule};
 use contact_dma::input::document::Document;
 use contact_dma::input::scenario_file;
 use contact_dma::material::Creep;
 use contact_dma::reference::transient::maxwell_half_sine_cubed_radius;
 use contact_dma::simulation::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome};
-use contact_dma::sweep::engine::{EngineBuilder, LargestContact};
-use contact_dma::sweep::plan::{EngineKind, SolverPlan};
 
 /// Zener body of equal springs, C_0 = 2.5e-7 1/Pa and tau = 10 s, under a sphere of 10 mm.
 const ZENER: &str = r#"title = "test"

@@ -10,12 +10,13 @@ use std::sync::atomic::AtomicBool;
 
 use crate::common::{pmma_material, sweep_plan};
 use contact_dma::drive::{Control, HarmonicDrive};
+use contact_dma::engine::EngineKind;
 use contact_dma::indenter::{FlatPunch, HeightMap, MapEdge, MapQuantity, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation};
 use contact_dma::quantity::Dimension;
 use contact_dma::report;
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::plan::{Axes, AxisValues, Block, Condition, EngineKind, SweepPlan, Varied};
+use contact_dma::sweep::plan::{Axes, AxisValues, Block, Condition, SweepPlan, Varied};
 use contact_dma::sweep::record::CaseRecord;
 use contact_dma::sweep::search::run::{self, Outcome, Progress};
 use contact_dma::sweep::store::Store;

@@ -4,6 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::engine::EngineKind;
 use crate::identify::candidate::{Candidate, candidates, choose, leave_out_outlier};
 use crate::identify::identified::{CellError, Identified, judged};
 use crate::identify::model::Model;
@@ -13,7 +14,6 @@ use crate::identify::series::Point;
 use crate::identify::{IdentifyError, IdentifyPlan, MOST_BRANCHES};
 use crate::material::Relaxation;
 use crate::numerics::levenberg_marquardt::{Ending, Problem, minimise};
-use crate::sweep::plan::EngineKind;
 
 /// Step of an unknown for derivatives of the exact model: wide beside what springs and steps leave of roughness in it.
 const STEP: f64 = 0.02;

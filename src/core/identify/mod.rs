@@ -66,13 +66,13 @@ pub use noise::Knowledge;
 use std::sync::Arc;
 
 use crate::drive::{HarmonicDrive, SegmentedDrive};
+use crate::engine::SolverPlan;
 use crate::identify::data::{Measurements, TableColumns};
 use crate::indenter::Indenter;
 use crate::material::{Compressibility, Material, MaterialError, ModulusKind, Relaxation};
 use crate::sweep::case::SetupError;
+use crate::sweep::plan::CyclePlan;
 use crate::sweep::plan::contact::ContactPlan;
-use crate::sweep::plan::layer::LayerPlan;
-use crate::sweep::plan::{CyclePlan, SolverPlan};
 use crate::sweep::record::error_bars::Quantity;
 
 /// Times of two branches closer than this factor are one time.
@@ -166,7 +166,7 @@ impl IdentifyPlan {
         };
         Self {
             title: String::new(),
-            solver: Self::solver(indenter.as_ref(), None),
+            solver: Self::solver(indenter.as_ref(), false),
             contact: ContactPlan::new(material, indenter),
             drive,
             branches: None,
@@ -179,11 +179,11 @@ impl IdentifyPlan {
     }
 
     /// The solver where nothing is asked for.
-    pub fn solver(indenter: &dyn Indenter, layer: Option<LayerPlan>) -> SolverPlan {
+    pub fn solver(indenter: &dyn Indenter, on_layer: bool) -> SolverPlan {
         SolverPlan {
             springs: Self::SPRINGS,
             cells: Self::CELLS,
-            ..SolverPlan::of(indenter, layer)
+            ..SolverPlan::of(indenter, on_layer)
         }
     }
 

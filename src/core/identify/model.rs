@@ -5,12 +5,13 @@ use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
+use crate::engine::EngineKind;
 use crate::identify::data::Number;
 use crate::identify::identified::CellError;
 use crate::identify::{Driven, IdentifyError, IdentifyPlan, history};
 use crate::material::{MaterialError, Relaxation};
 use crate::sweep::case::Setup;
-use crate::sweep::plan::{Case, Condition, CyclePlan, EngineKind, SweepPlan};
+use crate::sweep::plan::{Case, Condition, CyclePlan, SweepPlan};
 use crate::sweep::record::CaseResult;
 
 /// Numbers of the cycles of a plan's measurements, for any series.

@@ -9,8 +9,8 @@
 use std::collections::HashMap;
 
 use crate::drive::Fineness;
+use crate::engine::{EngineKind, SolverPlan};
 use crate::simulation::HistoryRow;
-use crate::sweep::plan::{EngineKind, SolverPlan};
 use crate::sweep::record::error_bars::{Ladder, Pair, ROUNDING, SAFETY};
 
 /// Estimated errors of a row, absolute; `None` where the value is undefined or the estimate is missing.

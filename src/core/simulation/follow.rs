@@ -11,12 +11,12 @@ use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::Surface;
 use crate::contact::{ContactError, Prescribed, Solution};
 use crate::drive::{Control, Moment, Schedule};
+use crate::engine::growing::{self, Layout};
+use crate::engine::{self, EngineBuilder, EngineError, MAX_GROWTHS};
 use crate::history::{DirectMemory, Hereditary, March, StepState};
 use crate::simulation::body_material::Compliance;
 use crate::simulation::checkpoint::{HistoryCheckpoint, HistoryState};
 use crate::simulation::{HistoryRow, Level, Progress, Simulation, SurfaceRecord};
-use crate::sweep::engine::growing::{self, Layout};
-use crate::sweep::engine::{self, EngineBuilder, EngineError, MAX_GROWTHS};
 
 /// Why a march ended early.
 #[derive(Debug, thiserror::Error)]

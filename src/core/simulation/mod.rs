@@ -26,6 +26,7 @@ use serde::{Deserialize, Serialize};
 use crate::contact::ContactError;
 use crate::contact::surface::Surface;
 use crate::drive::{Control, Fineness, MAX_MOMENTS, Schedule, Steps};
+use crate::engine::{EngineBuilder, LargestContact, MAX_GROWTHS, missed_contact};
 use crate::quantity::{Dimension, format_human};
 use crate::simulation::body_material::Compliance;
 use crate::simulation::checkpoint::{HistoryCheckpoint, HistoryState};
@@ -33,8 +34,8 @@ use crate::simulation::cycles::HistoryCycle;
 use crate::simulation::errors::{Followed, Plan, RowErrors};
 use crate::simulation::follow::{Course, MarchError, Run};
 use crate::simulation::scenario::ScenarioPlan;
-use crate::sweep::engine::setup::{SetupError, check_direct_sum};
-use crate::sweep::engine::{self, EngineBuilder, LargestContact, MAX_GROWTHS, missed_contact};
+use crate::sweep::plan::layer::LayerPlan;
+use crate::sweep::plan::setup::{SetupError, check_direct_sum};
 
 /// A scenario, ready to run.
 pub struct Simulation {
@@ -148,7 +149,7 @@ impl Simulation {
             compliance_per_pa: compliance.largest_per_pa(plan.drive.duration_s()),
         };
         let poisson_ratio = plan.contact.material.poisson_ratio();
-        let layer = engine::layer(plan.contact.layer, poisson_ratio)?;
+        let layer = LayerPlan::of_body(plan.contact.layer, poisson_ratio)?;
         let output = &plan.output;
         let requested_s = [&output.profiles_at_s[..], &output.fields_at_s[..]].concat();
         let level = |fineness, nodes| -> Result<Level, SetupError> {

@@ -1,13 +1,13 @@
 //! What of a history lies outside the model.
 
 use crate::drive::{Segment, SegmentedDrive};
+use crate::engine::domain;
 use crate::material::ModulusKind;
 use crate::material::tabulated::TableWarning;
 use crate::simulation::body_material::BodyMaterial;
 use crate::simulation::scenario::ScenarioPlan;
 use crate::simulation::{HistoryRow, SimulationOutcome};
-use crate::sweep::engine::domain;
-use crate::sweep::engine::slope::{Patch, ROUNDING, of_slope, slope_of_body};
+use crate::sweep::record::slope::{Patch, ROUNDING, of_slope, slope_of_body};
 use crate::sweep::record::warning::Warning;
 
 /// What is to be said of a history, as far as it came.

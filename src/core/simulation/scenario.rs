@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::drive::{Control, Segment, SegmentedDrive};
+use crate::engine::{EngineKind, SolverPlan};
 use crate::indenter::Indenter;
 use crate::quantity::Dimension;
 use crate::simulation::body_material::BodyMaterial;
@@ -10,7 +11,6 @@ use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::check::{PlanError, check_count};
 use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::resolved::{self, entry, numbers, quoted};
-use crate::sweep::plan::{EngineKind, SolverPlan};
 use crate::sweep::scales::elastic::{ElasticScale, NoScale};
 
 /// Everything a simulation needs to know. Two equal plans give equal results, bit for bit.
@@ -34,7 +34,7 @@ impl ScenarioPlan {
         indenter: Arc<dyn Indenter>,
         drive: SegmentedDrive,
     ) -> Self {
-        let solver = SolverPlan::of(indenter.as_ref(), None);
+        let solver = SolverPlan::of(indenter.as_ref(), false);
         Self::of(ContactPlan::new(material.into(), indenter), solver, drive)
     }
 

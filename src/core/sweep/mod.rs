@@ -30,7 +30,6 @@
 //! | [`figures`] | how figures look |
 //! | [`plan`] | what to compute: a sweep with every default filled in, as values and as text; ranges of values |
 //! | [`record`] | what a case came to, its error bars, and what is said of it |
-//! | [`engine`] | engines on a domain that holds the contact |
 //! | [`store`] | where results are kept: memory, or a folder of files whole or not at all, and where they come from |
 //! | [`case`] | one case: the stabilised cycle on several resolutions |
 //! | [`scales`] | units of the elastic contact for figures |
@@ -38,7 +37,6 @@
 //! | [`search`] | all cases in parallel, frequencies added where the curve asks for them and peaks; [`Sweep`] |
 
 pub mod case;
-pub mod engine;
 pub mod figures;
 pub mod plan;
 pub mod record;

@@ -3,10 +3,11 @@
 use maud::Markup;
 
 use super::question::{Facts, list};
+use crate::engine::{EngineKind, SolverPlan};
 use crate::history::TimeRule;
 use crate::report::words::{self, case, nodes_name, range};
+use crate::sweep::plan::SweepPlan;
 use crate::sweep::plan::contact::ContactPlan;
-use crate::sweep::plan::{EngineKind, SolverPlan, SweepPlan};
 use crate::sweep::record::{CaseRecord, Status};
 use crate::sweep::search::run::Outcome;
 

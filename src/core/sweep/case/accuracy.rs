@@ -1,9 +1,9 @@
 //! The resolution at which the error of a case's loss stays below what is asked for, at the least cost.
 
+use crate::engine::EngineKind;
 use crate::sweep::case::Resolution;
 use crate::sweep::case::levels::Levels;
 use crate::sweep::case::stabilise::{CaseError, Stabilised};
-use crate::sweep::plan::EngineKind;
 use crate::sweep::record::error_bars::{Bar, Quantity};
 use crate::sweep::record::{CaseRecord, CaseResult};
 

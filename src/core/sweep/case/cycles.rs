@@ -2,11 +2,11 @@
 
 use crate::cycle;
 use crate::drive::Control;
+use crate::engine::missed_contact;
 use crate::history::{March, Stage, StepWeights};
 use crate::steady::Remaining;
 use crate::sweep::case::recording::Recording;
 use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised};
-use crate::sweep::engine::missed_contact;
 use crate::sweep::plan::Method;
 use crate::sweep::record::CaseResult;
 

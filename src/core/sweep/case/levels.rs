@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use crate::contact::{ContactError, Engine};
+use crate::engine::MAX_GROWTHS;
+use crate::engine::{EngineKind, instant_tolerance};
 use crate::history::{Work, order_of_steps};
 use crate::sweep::case::edge_layer::EdgeLayer;
 use crate::sweep::case::lift_off;
 use crate::sweep::case::stabilise::{CaseError, Contact, InSteps, Stabilised, Wanted, start_of};
 use crate::sweep::case::{Resolution, Setup, SetupError};
-use crate::sweep::engine::MAX_GROWTHS;
-use crate::sweep::plan::{EngineKind, instant_tolerance};
 use crate::sweep::record::CaseResult;
 use crate::sweep::record::error_bars::{Edge, ErrorBars, InNodes, Ladder, Pair, Quantity};
 

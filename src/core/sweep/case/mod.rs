@@ -21,18 +21,19 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::contact::ContactError;
 use crate::drive::{Control, HarmonicDrive};
+use crate::engine::EngineKind;
+use crate::engine::instant_tolerance;
+use crate::engine::{EngineBuilder, EngineError, LargestContact};
 use crate::material::{Creep, Material};
 use crate::sweep::case::checkpoint::Checkpoints;
 use crate::sweep::case::levels::{Course, Levels};
 pub use crate::sweep::case::recording::sample;
 use crate::sweep::case::solid::Solid;
 use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised, Wanted};
-pub use crate::sweep::engine::setup::SetupError;
-use crate::sweep::engine::{self, EngineBuilder, EngineError, LargestContact};
 use crate::sweep::plan::check::check_frequency;
-use crate::sweep::plan::instant_tolerance;
 use crate::sweep::plan::layer::LayerPlan;
-use crate::sweep::plan::{Case, Condition, CyclePlan, EngineKind, SweepPlan};
+pub use crate::sweep::plan::setup::SetupError;
+use crate::sweep::plan::{Case, Condition, CyclePlan, SweepPlan};
 use crate::sweep::record::{CaseRecord, CaseResult, Status};
 use crate::sweep::store::entry::Purpose;
 
@@ -220,7 +221,7 @@ impl Setup {
     ) -> Result<EngineBuilder, EngineError> {
         let largest = LargestContact::of(&condition.drive, relaxed_per_pa);
         let solver = self.plan.solver.with_nodes(nodes);
-        let layer = engine::layer(
+        let layer = LayerPlan::of_body(
             condition.contact.layer,
             condition.contact.material.poisson_ratio(),
         )?;

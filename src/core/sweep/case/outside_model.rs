@@ -1,11 +1,12 @@
 //! What of a case lies outside the model, or was not estimated.
 
 use crate::cycle::ContactDuty;
+use crate::engine::{EngineKind, SolverPlan};
 use crate::sweep::case::lift_off::FEWEST_STEPS;
-use crate::sweep::engine::slope::{ROUNDING, of_slope, slope_of_case};
-use crate::sweep::plan::{Condition, EngineKind, SolverPlan};
+use crate::sweep::plan::Condition;
 use crate::sweep::record::CaseResult;
 use crate::sweep::record::error_bars::Quantity;
+use crate::sweep::record::slope::{ROUNDING, of_slope, slope_of_case};
 use crate::sweep::record::warning::{NoErrorBars, Warning};
 
 /// What is to be said of a case at an angular frequency (rad/s) and in a number of steps, once it is solved.

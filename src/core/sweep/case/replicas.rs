@@ -4,10 +4,11 @@
 //! for every one of them. So the replicas and the material itself are solved on the same few steps and nodes, and the loss with a
 //! replica is that of the case times the ratio of the two.
 
+use crate::engine::EngineKind;
 use crate::sweep::case::Resolution;
 use crate::sweep::case::levels::Levels;
 use crate::sweep::case::stabilise::{CaseError, Contact, Wanted};
-use crate::sweep::plan::{CyclePlan, EngineKind, Method};
+use crate::sweep::plan::{CyclePlan, Method};
 
 impl Levels<'_> {
     /// The losses (J) with the replicas of the material of a case that lost this much, and what a reader should know of them.

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::{ContactError, Engine, Prescribed, Solution};
 use crate::cycle::LoopError;
+use crate::engine::{EngineError, prescribed};
 use crate::history::{March, Memory, TimeRule, Work};
 use crate::material::Creep;
 use crate::steady::{self, Steady, SteadySettings};
@@ -13,7 +14,6 @@ use crate::sweep::case::SetupError;
 use crate::sweep::case::checkpoint::Checkpoints;
 use crate::sweep::case::cycles::Cycles;
 use crate::sweep::case::solid::Solid;
-use crate::sweep::engine::{EngineError, prescribed};
 use crate::sweep::plan::{Condition, CyclePlan, Method};
 use crate::sweep::record::CaseResult;
 

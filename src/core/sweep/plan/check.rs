@@ -4,8 +4,9 @@
 use std::ops::{Range, RangeInclusive};
 
 use crate::contact::half_space::layer::YieldingBase;
+use crate::engine::{EngineKind, SolverPlan};
 use crate::sweep::plan::contact::ContactPlan;
-use crate::sweep::plan::{Condition, CyclePlan, EngineKind, Method, SolverPlan, SweepPlan};
+use crate::sweep::plan::{Condition, CyclePlan, Method, SweepPlan};
 
 /// Why a plan is refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

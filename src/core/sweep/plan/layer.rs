@@ -4,6 +4,7 @@
 //! on the half-space, and everything but the influence of a load on its surroundings stays as it is.
 
 use crate::contact::half_space::layer::{Base, Layer, YieldingBase};
+use crate::engine::EngineError;
 use crate::quantity::{Dimension, format_human};
 use crate::sweep::plan::check::PlanError;
 use crate::sweep::plan::resolved::{entry, quoted};
@@ -27,6 +28,21 @@ impl LayerPlan {
             yielding: self.yielding,
             poisson_ratio,
         }
+    }
+
+    /// The layer that a body of this Poisson ratio is, where it is one.
+    ///
+    /// # Errors
+    /// [`EngineError`] for a body without a constant Poisson ratio.
+    pub(crate) fn of_body(
+        plan: Option<Self>,
+        poisson_ratio: Option<f64>,
+    ) -> Result<Option<Layer>, EngineError> {
+        let Some(plan) = plan else {
+            return Ok(None);
+        };
+        let poisson_ratio = poisson_ratio.ok_or(EngineError::LayerOfBulkModulus)?;
+        Ok(Some(plan.of_material(poisson_ratio)))
     }
 
     /// The `[layer]` block, with an empty line before it.

@@ -4,22 +4,21 @@ pub mod adhesion;
 pub mod axes;
 pub mod check;
 pub mod contact;
-pub mod instant_tolerance;
 pub mod layer;
 mod material_text;
 pub mod resolved;
+pub mod setup;
 
 pub use axes::{Axes, AxisValues, Block, Varied};
 
 use std::sync::Arc;
 
 use crate::drive::HarmonicDrive;
-use crate::history::TimeRule;
+use crate::engine::SolverPlan;
 use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::contact::ContactPlan;
-use crate::sweep::plan::layer::LayerPlan;
 
 /// Cases of a small sweep, at most.
 pub const SMALL: usize = 200;
@@ -63,7 +62,7 @@ pub struct Case {
 impl SweepPlan {
     /// A sweep without frequencies and title, everything else at its default.
     pub fn new(material: Material, indenter: Arc<dyn Indenter>, drive: HarmonicDrive) -> Self {
-        let solver = SolverPlan::of(indenter.as_ref(), None);
+        let solver = SolverPlan::of(indenter.as_ref(), false);
         Self::of(
             ContactPlan::new(Arc::new(material), indenter),
             solver,
@@ -188,78 +187,6 @@ impl Method {
     }
 }
 
-/// Which engine, and how fine.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SolverPlan {
-    pub engine: EngineKind,
-    pub time_rule: TimeRule,
-    /// Axisymmetric engine: springs over the domain.
-    pub springs: usize,
-    /// Half-space engine: cells along the longer side of the domain; those of the indenter where it is a map.
-    pub cells: usize,
-    /// Half-space engine: tolerance of one instant, see [`crate::contact::half_space::SolverSettings`]; where none is given, what
-    /// the loss asks for, see [`crate::sweep::plan::instant_tolerance`].
-    pub tolerance: Option<f64>,
-}
-
-/// The two contact engines. Every `match` names both, so that a third would be met everywhere.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum EngineKind {
-    Axisymmetric,
-    HalfSpace,
-}
-
-impl EngineKind {
-    /// The name as written in a sweep file.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Axisymmetric => "axisymmetric",
-            Self::HalfSpace => "half-space",
-        }
-    }
-}
-
-impl SolverPlan {
-    /// Everything at its default, on a layer where there is one: springs where indenter and body allow them, cells elsewhere.
-    pub fn of(indenter: &dyn Indenter, layer: Option<LayerPlan>) -> Self {
-        let engine = match (indenter.axisymmetric(), layer) {
-            (Some(_), None) => EngineKind::Axisymmetric,
-            _ => EngineKind::HalfSpace,
-        };
-        Self {
-            engine,
-            ..Self::DEFAULT
-        }
-    }
-
-    /// Nodes along the contact's radius (springs) or the domain's longer side (cells), whichever the engine has.
-    pub fn nodes(&self) -> usize {
-        match self.engine {
-            EngineKind::Axisymmetric => self.springs,
-            EngineKind::HalfSpace => self.cells,
-        }
-    }
-
-    /// The same with the cells that an indenter brings, where it brings any.
-    #[must_use]
-    pub fn on_own_cells(mut self, indenter: &dyn Indenter) -> Self {
-        if let Some((cells_x, cells_y)) = indenter.own_cells() {
-            self.cells = cells_x.max(cells_y);
-        }
-        self
-    }
-
-    /// The same engine with another number of them.
-    #[must_use]
-    pub fn with_nodes(mut self, nodes: usize) -> Self {
-        match self.engine {
-            EngineKind::Axisymmetric => self.springs = nodes,
-            EngineKind::HalfSpace => self.cells = nodes,
-        }
-        self
-    }
-}
-
 impl CyclePlan {
     /// What counts where nothing is asked for.
     pub const DEFAULT: Self = Self {
@@ -279,28 +206,11 @@ impl Default for CyclePlan {
     }
 }
 
-impl SolverPlan {
-    /// What counts where nothing is asked for.
-    pub const DEFAULT: Self = Self {
-        engine: EngineKind::Axisymmetric,
-        time_rule: TimeRule::Linear,
-        springs: 400,
-        cells: 128,
-        tolerance: None,
-    };
-}
-
-impl Default for SolverPlan {
-    fn default() -> Self {
-        Self::DEFAULT
-    }
-}
-
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
     use crate::drive::Control;
-    use crate::indenter::{HeightMap, MapEdge, MapQuantity, Shifted, Sphere};
+    use crate::indenter::Sphere;
     use crate::material::library;
 
     /// A sphere on PMMA under a load, of which no number varies.
@@ -308,24 +218,5 @@ pub(crate) mod tests {
         let pmma = library::find("pmma").unwrap().material().unwrap();
         let drive = HarmonicDrive::new(Control::Load, 10.0, 5.0, 0.0, 0.0).unwrap();
         SweepPlan::new(pmma, Arc::new(Sphere::new(0.01).unwrap()), drive).base
-    }
-
-    #[test]
-    fn the_cells_of_a_map_are_those_of_the_plan_whatever_was_asked_for() {
-        let heights = (0..200 * 150).map(|i| 1e-9 * f64::from(i % 7)).collect();
-        let map = HeightMap::new(
-            (200, 150),
-            (1e-6, 1e-6),
-            heights,
-            MapQuantity::Gap,
-            MapEdge::Unknown,
-        )
-        .unwrap();
-        let map: Arc<dyn Indenter> = Arc::new(map);
-        let sphere: Arc<dyn Indenter> = Arc::new(Sphere::new(0.01).unwrap());
-        let moved = |inner: &Arc<dyn Indenter>| Shifted::new(Arc::clone(inner), 1e-6, 0.0).unwrap();
-        let cells = |indenter: &dyn Indenter| SolverPlan::default().on_own_cells(indenter).cells;
-        assert_eq!([cells(map.as_ref()), cells(&moved(&map))], [200, 200]);
-        assert_eq!([cells(sphere.as_ref()), cells(&moved(&sphere))], [128, 128]);
     }
 }

@@ -6,13 +6,14 @@ use std::fmt::Write;
 use sha2::{Digest, Sha256};
 
 use crate::drive::{Control, HarmonicDrive};
+use crate::engine::SolverPlan;
 use crate::indenter::{Indenter, Parameter, Value};
 use crate::material::Material;
 use crate::quantity::{Dimension, format_si};
 pub(crate) use crate::sweep::plan::material_text::compressibility_line;
 use crate::sweep::plan::material_text::text_over_temperatures;
 pub use crate::sweep::plan::material_text::{material_text, material_text_without_poisson_ratio};
-use crate::sweep::plan::{Axes, Block, Condition, CyclePlan, SolverPlan, SweepPlan, Varied};
+use crate::sweep::plan::{Axes, Block, Condition, CyclePlan, SweepPlan, Varied};
 
 /// The plan as the text of a sweep file.
 pub fn resolved_text(plan: &SweepPlan) -> String {

@@ -122,7 +122,7 @@ pub enum Edge {
     /// At an edge of the indenter that is sharp, or nearly so, and stays where it is: the pressure is singular there as far as cells can
     /// tell, and the cells a staircase.
     Sharp,
-    /// At the rim of the indenter, to which the cells are fitted (`sweep::engine::domain`); the loss goes as this power of its
+    /// At the rim of the indenter, to which the cells are fitted (`engine::domain`); the loss goes as this power of its
     /// radius at most.
     Rim { power: f64 },
 }

@@ -2,6 +2,7 @@
 
 pub mod error_bars;
 pub mod material_error;
+pub(crate) mod slope;
 pub mod warning;
 
 use serde::{Deserialize, Serialize};

@@ -5,12 +5,13 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use crate::drive::{Control, HarmonicDrive};
+use crate::engine::{EngineKind, SolverPlan};
 use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::sweep::case::{Setup, SetupError};
 use crate::sweep::plan::adhesion::AdhesionPlan;
 use crate::sweep::plan::check::PlanError;
-use crate::sweep::plan::{Axes, Case, EngineKind, Method, SolverPlan, SweepPlan, Varied};
+use crate::sweep::plan::{Axes, Case, Method, SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::{self, Options, Outcome, RunError};
 use crate::sweep::store::records::Records;
@@ -158,7 +159,7 @@ impl Sweep {
     /// The axisymmetric engine, on this number of springs.
     ///
     /// # Errors
-    /// [`PlanError`] where the number is not in [`crate::sweep::plan::SolverPlan::SPRINGS`].
+    /// [`PlanError`] where the number is not in [`crate::engine::SolverPlan::SPRINGS`].
     pub fn springs(self, springs: usize) -> Result<Self, PlanError> {
         self.on(EngineKind::Axisymmetric, springs)
     }
@@ -166,7 +167,7 @@ impl Sweep {
     /// The half-space engine, on this number of cells along the longer side.
     ///
     /// # Errors
-    /// [`PlanError`] where the number is not in [`crate::sweep::plan::SolverPlan::CELLS`].
+    /// [`PlanError`] where the number is not in [`crate::engine::SolverPlan::CELLS`].
     pub fn cells(self, cells: usize) -> Result<Self, PlanError> {
         self.on(EngineKind::HalfSpace, cells)
     }

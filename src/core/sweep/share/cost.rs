@@ -2,10 +2,11 @@
 
 use std::time::{Duration, Instant};
 
+use crate::engine::EngineKind;
+use crate::engine::{EngineBuilder, prescribed};
 use crate::history::March;
 use crate::sweep::case::{Setup, SetupError};
-use crate::sweep::engine::{EngineBuilder, prescribed};
-use crate::sweep::plan::{Case, EngineKind, Method, SweepPlan};
+use crate::sweep::plan::{Case, Method, SweepPlan};
 use crate::sweep::share::trial::{self, Trial};
 
 /// What a sweep costs, foretold from some of its cases. On cells, where fewer of them are tried than asked for, the time is good to a

@@ -4,8 +4,9 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use crate::drive::Control;
+use crate::engine::EngineKind;
 use crate::sweep::case::{Aim, Resolution, Setup, SetupError, accuracy};
-use crate::sweep::plan::{Condition, EngineKind};
+use crate::sweep::plan::Condition;
 use crate::sweep::share::cost;
 use crate::sweep::store::entry;
 

@@ -8,7 +8,7 @@ use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use serde::Serialize;
 
-use crate::sweep::plan::SolverPlan;
+use crate::engine::SolverPlan;
 use crate::sweep::store::listing::{Kind, PROGRAM, RUN};
 use crate::sweep::store::{Store, StoreError};
 

@@ -18,8 +18,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::contact::half_space::grid::Grid;
+use crate::engine::domain;
 use crate::indenter::{Axisymmetric, Indenter};
-use crate::sweep::engine::domain;
 use crate::sweep::record::warning::{
     GLASSY_MODULUS_PA, LARGEST_GLASSY_STRAIN, LARGEST_SLOPE, STRAIN_PER_SLOPE, Warning,
 };

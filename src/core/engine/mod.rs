@@ -1,12 +1,14 @@
-//! Engines on a domain: how large it must be, the operator all engines share, and a larger one where the contact reaches the
+//! Engines for an indenter, on a domain: how large it must be, the operator all engines share, and a larger one where the contact reaches the
 //! edge after all.
 
 pub mod domain;
 pub mod growing;
+pub mod instant_tolerance;
 mod layered;
-pub mod setup;
-pub mod slope;
+mod solver;
 mod springs;
+
+pub use solver::{EngineKind, SolverPlan};
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -18,12 +20,9 @@ use crate::contact::half_space::periodic::{Periodic, PeriodicOperator};
 use crate::contact::half_space::{HalfSpace, SolverSettings, predicted_memory_bytes};
 use crate::contact::{Engine, Prescribed};
 use crate::drive::{Control, HarmonicDrive};
+use crate::engine::domain::{FEWEST_ACROSS, GROWTH};
+use crate::engine::growing::Layout;
 use crate::indenter::{self, Domain, Indenter};
-use crate::sweep::engine::domain::{FEWEST_ACROSS, GROWTH};
-use crate::sweep::engine::growing::Layout;
-use crate::sweep::plan::instant_tolerance;
-use crate::sweep::plan::layer::LayerPlan;
-use crate::sweep::plan::{EngineKind, SolverPlan};
 
 /// Why there is no engine for an indenter.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -418,18 +417,6 @@ fn body(indenter: &dyn Indenter) -> Result<&dyn indenter::Axisymmetric, EngineEr
         reason: indenter.not_axisymmetric_because(),
     };
     indenter.axisymmetric().ok_or_else(refusal)
-}
-
-/// The layer that a body of this Poisson ratio is, where it is one.
-pub(crate) fn layer(
-    plan: Option<LayerPlan>,
-    poisson_ratio: Option<f64>,
-) -> Result<Option<Layer>, EngineError> {
-    let Some(plan) = plan else {
-        return Ok(None);
-    };
-    let poisson_ratio = poisson_ratio.ok_or(EngineError::LayerOfBulkModulus)?;
-    Ok(Some(plan.of_material(poisson_ratio)))
 }
 
 /// A value of a drive as what it prescribes at an instant.

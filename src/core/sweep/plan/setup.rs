@@ -1,8 +1,8 @@
 //! Why neither a sweep nor a history can be set up.
 
 use crate::drive::{DriveError, ScheduleError};
+use crate::engine::EngineError;
 use crate::material::MaterialError;
-use crate::sweep::engine::EngineError;
 use crate::sweep::plan::check::PlanError;
 
 /// Why a sweep or a history cannot be set up.

@@ -7,9 +7,9 @@ use crate::contact::half_space::convolution::Convolution;
 use crate::contact::half_space::layer::LayerInfluence;
 use crate::contact::half_space::{HalfSpace, SolverSettings};
 use crate::contact::{ContactError, Engine, Instant};
+use crate::engine::domain::{self, GROWTH};
+use crate::engine::{EngineError, LargestContact, prescribed};
 use crate::indenter::{Domain, Indenter};
-use crate::sweep::engine::domain::{self, GROWTH};
-use crate::sweep::engine::{EngineError, LargestContact, prescribed};
 
 /// Cells along the side of a trial.
 const CELLS: usize = 48;
