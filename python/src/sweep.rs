@@ -74,7 +74,7 @@ impl Progress for Count<'_> {
         self.counter.done.fetch_add(done, Ordering::Relaxed);
     }
 
-    fn told(&self, what: &str) {
+    fn notice(&self, what: &str) {
         if let Ok(mut notes) = self.notes.lock() {
             notes.push(what.to_owned());
         }

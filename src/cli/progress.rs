@@ -138,7 +138,7 @@ impl Progress for Shown {
         if let How::Bar(bar) = &self.how {
             bar.set_position(done as u64);
         }
-        self.told(&format!("{done} of {of} cases were already done"));
+        self.notice(&format!("{done} of {of} cases were already done"));
     }
 
     fn cases_added(&self, added: usize, found: usize) {
@@ -151,7 +151,7 @@ impl Progress for Shown {
         }
     }
 
-    fn told(&self, what: &str) {
+    fn notice(&self, what: &str) {
         match &self.how {
             How::Bar(bar) => bar.suspend(|| line(what)),
             How::Lines => line(what),

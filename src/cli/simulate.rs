@@ -92,7 +92,7 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
                 "memory_bytes": simulation.predicted_memory_bytes(),
             }))
         };
-        return tell(format, false, found, || foretold(&simulation));
+        return tell(format, false, found, || predicted(&simulation));
     }
     let resolved = scenario::resolved_text(simulation.plan());
     let out = (flags.out.as_deref(), flags.force);
@@ -163,7 +163,7 @@ fn found_in(store: &Store, outcome: &SimulationOutcome) -> Result<serde_json::Va
 }
 
 /// What would be computed, and about the memory it takes.
-fn foretold(simulation: &Simulation) -> String {
+fn predicted(simulation: &Simulation) -> String {
     let plan = simulation.plan();
     let free = memory::free_here();
     format!(

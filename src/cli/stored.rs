@@ -118,7 +118,7 @@ pub(super) fn merge(flags: &MergeFlags, format: OutputFormat) -> Result<Ended, F
     let cases = setup.plan().cases();
     let progress = Shown::new(setup.plan(), cases.len(), flags.quiet);
     let parts: Vec<Store> = parts.into_iter().map(|(part, _)| part).collect();
-    let missing = merge::gather(&parts, &out, &cases, &|what| progress.told(what))?;
+    let missing = merge::gather(&parts, &out, &cases, &|what| progress.notice(what))?;
     if !missing.is_empty() {
         return Err(Failure::Run(lacking(&missing, cases.len(), &out)));
     }

@@ -12,7 +12,7 @@ use crate::sweep::plan::layer::LayerPlan;
 /// The blocks as read.
 pub(super) struct Bodies<'a> {
     /// Of the indenter, where it is not rigid.
-    pub(super) counterbody: Option<Material>,
+    pub(super) indenter_material: Option<Material>,
     pub(super) layer: Option<LayerPlan>,
     /// What attracts the indenter, where anything does.
     pub(super) attraction: Option<Attraction<'a>>,
@@ -20,13 +20,13 @@ pub(super) struct Bodies<'a> {
 
 /// Reads the blocks; `None` where a problem was reported.
 pub(super) fn read<'a>(root: &mut TableReader<'a>) -> Option<Bodies<'a>> {
-    let counterbody = indenter_block::material(root);
+    let indenter_material = indenter_block::material(root);
     let layer = root.table_or(&keys::LAYER, None, |t| layer_block::read(t).map(Some));
-    let has_counterbody = counterbody.as_ref().is_some_and(Option::is_some);
-    layer_block::refuse_second_body(root, has_counterbody);
+    let has_indenter_material = indenter_material.as_ref().is_some_and(Option::is_some);
+    layer_block::refuse_second_body(root, has_indenter_material);
     let attraction = adhesion_block::read(root);
     Some(Bodies {
-        counterbody: counterbody?.map(|body| body.value),
+        indenter_material: indenter_material?.map(|body| body.value),
         layer: layer?,
         attraction: attraction?,
     })

@@ -66,7 +66,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<IdentifyPlan, Dia
                 adhesion: bodies.adhesion(),
                 material: Sought {
                     compressibility: compressibility?,
-                    counterbody: bodies.counterbody,
+                    indenter_material: bodies.indenter_material,
                 },
             },
             solver: solver?,

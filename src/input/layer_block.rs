@@ -86,8 +86,8 @@ pub(super) fn solver(
 }
 
 /// Refuses an indenter that yields on a layer: how far each yields under one pressure is then not the same but for a factor.
-pub(super) fn refuse_second_body(root: &mut TableReader<'_>, has_counterbody: bool) {
-    if let (true, Some(place)) = (has_counterbody, root.key_location(&keys::LAYER)) {
+pub(super) fn refuse_second_body(root: &mut TableReader<'_>, has_indenter_material: bool) {
+    if let (true, Some(place)) = (has_indenter_material, root.key_location(&keys::LAYER)) {
         root.problems()
             .at(&place, "a layer is pressed by a rigid indenter only")
             .because("and [indenter.material] makes it yield")

@@ -44,8 +44,8 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Dia
         let bodies = bodies_block::read(root);
         let layer = bodies.as_ref().and_then(|bodies| bodies.layer);
         let material = material.zip(bodies.as_ref());
-        let material =
-            material.and_then(|(m, bodies)| for_contact(problems, m, bodies.counterbody.clone()));
+        let material = material
+            .and_then(|(m, bodies)| for_contact(problems, m, bodies.indenter_material.clone()));
         let indenter = given.indenter(root);
         let drive = root.table(&keys::HISTORY).and_then(|t| {
             let pull_off_n = |control| bodies.as_ref()?.pull_off_n(indenter.as_deref(), control);
@@ -86,10 +86,10 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Dia
 fn for_contact(
     problems: &Problems,
     material: Located<BodyMaterial>,
-    counterbody: Option<Material>,
+    indenter_material: Option<Material>,
 ) -> Option<BodyMaterial> {
     problems.accept(&material, material.value.check_contact())?;
-    match (counterbody, &material.value) {
+    match (indenter_material, &material.value) {
         (None, _) => Some(material.value),
         (Some(indenter), BodyMaterial::Series(own)) => Some(own.clone().against(indenter).into()),
         (Some(_), BodyMaterial::Samples(_)) => {

@@ -44,7 +44,7 @@ pub fn setup(document: &Document) -> Result<Setup, Diagnostics> {
                     "add `[contact]` with the Poisson ratio of the specimen: poisson_ratio = 0.4",
                 );
         }
-        let counterbody = indenter_block::material(root);
+        let indenter_material = indenter_block::material(root);
         let contact = root.table_or(&CONTACT, None, |table| {
             contact(table, indenter.clone().flatten(), indenter_at.is_some()).map(Some)
         });
@@ -55,10 +55,12 @@ pub fn setup(document: &Document) -> Result<Setup, Diagnostics> {
             options: Options {
                 frequency_hz: None,
                 corrections: corrections?,
-                contact: contact?.zip(counterbody).map(|(contact, body)| Contact {
-                    counterbody: body.map(|body| body.value),
-                    ..contact
-                }),
+                contact: contact?
+                    .zip(indenter_material)
+                    .map(|(contact, body)| Contact {
+                        indenter_material: body.map(|body| body.value),
+                        ..contact
+                    }),
             },
         })
     })
@@ -136,7 +138,7 @@ fn contact(
         poisson_ratio: poisson_ratio?,
         radius,
         indenter,
-        counterbody: None,
+        indenter_material: None,
         bias: bias?,
     })
 }
@@ -215,7 +217,7 @@ radius = "10 um"
     fn an_indenter_may_be_made_of_something() {
         let text = format!("{WHOLE}[indenter.material]\nlibrary = \"steel\"\n");
         let contact = read(&text).unwrap().options.contact.unwrap();
-        let steel = contact.counterbody.unwrap();
+        let steel = contact.indenter_material.unwrap();
         assert!(steel.contact_complex_modulus(1.0).re > 1e11);
         assert!(
             read(WHOLE)
@@ -223,7 +225,7 @@ radius = "10 um"
                 .options
                 .contact
                 .unwrap()
-                .counterbody
+                .indenter_material
                 .is_none()
         );
     }

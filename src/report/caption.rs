@@ -89,7 +89,7 @@ impl Setting {
                 indenter(
                     (name, c.contact.indenter.as_ref()),
                     swept,
-                    c.contact.material.counterbody(),
+                    c.contact.material.indenter_material(),
                 )
             }),
             words::each_of(plan, Block::Material, |_, c| material(&c.contact.material)),
@@ -135,7 +135,7 @@ impl Setting {
             indenter(
                 (None, contact.indenter.as_ref()),
                 &[],
-                contact.material.counterbody()
+                contact.material.indenter_material()
             ),
             layer(contact.layer, &[]),
             plan.drive.control().name()

@@ -15,7 +15,7 @@ pub fn note(plan: &SweepPlan, outcome: &Outcome) -> Option<String> {
         while let Some(record) = rest.next_if(|record| record.is_of(condition)) {
             let bar = record.energy_loss_j().zip(record.energy_loss_error_j());
             let Some((loss_j, error_j)) =
-                bar.filter(|_| condition.contact.material.counterbody().is_none())
+                bar.filter(|_| condition.contact.material.indenter_material().is_none())
             else {
                 continue;
             };

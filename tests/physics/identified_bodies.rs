@@ -32,7 +32,7 @@ fn truth() -> Relaxation {
 /// What makes a contact more than plain.
 #[derive(Clone, Default)]
 struct With {
-    counterbody: Option<Material>,
+    indenter_material: Option<Material>,
     layer: Option<LayerPlan>,
     adhesion: Option<AdhesionPlan>,
     /// In place of the Poisson ratio (Pa).
@@ -54,7 +54,7 @@ impl With {
     fn truth(&self) -> Material {
         let kind = ModulusKind::Longitudinal;
         let material = Material::from_relaxation(truth(), kind, self.compressibility()).unwrap();
-        match &self.counterbody {
+        match &self.indenter_material {
             Some(indenter) => material.against(indenter.clone()),
             None => material,
         }
@@ -72,7 +72,7 @@ impl With {
         let known = self.compressibility();
         let mut plan = IdentifyPlan::new(known, self.indenter(), drive, measurements);
         plan.solver = self.solver();
-        plan.contact.material.counterbody = self.counterbody;
+        plan.contact.material.indenter_material = self.indenter_material;
         (plan.contact.layer, plan.contact.adhesion) = (self.layer, self.adhesion);
         plan.branches = Some(2);
         plan.cycle = cycle;
@@ -172,7 +172,7 @@ fn an_indenter_that_yields_as_much_as_the_body_is_taken_out() {
     let rubber = Relaxation::new(8e6, vec![branch]).unwrap();
     let rubber = Material::from_relaxation(rubber, ModulusKind::Longitudinal, 0.45).unwrap();
     let with = With {
-        counterbody: Some(rubber),
+        indenter_material: Some(rubber),
         ..With::default()
     };
     let under_load = of_cycles(HarmonicDrive::load(0.2, 0.1).unwrap(), &with);
@@ -189,7 +189,7 @@ fn an_indenter_that_yields_as_much_as_the_body_is_taken_out() {
         // The tolerance of the cycles of the model, 1e-6, reaches the moduli a hundredfold; the histories of the model have its steps.
         assert!(error < 2e-3, "{name}: {error:e}");
         let mut rigid = plan;
-        rigid.contact.material.counterbody = None;
+        rigid.contact.material.indenter_material = None;
         rigid.branches = None;
         let missed = identify(&rigid, &AtomicBool::new(false)).map_or(1.0, |found| off(&found));
         assert!(missed > 0.1, "{name}: {missed:e}");

@@ -392,7 +392,7 @@ fn moduli_with(
             poisson_ratio: material.poisson_ratio().unwrap(),
             radius: Radius::Geometry,
             indenter: Some(Arc::new(indenter)),
-            counterbody: known,
+            indenter_material: known,
             bias: true,
         }),
         ..Options::default()
@@ -517,7 +517,7 @@ fn moduli_without_bias_lie_within_their_intervals_whatever_the_spectrum() {
                 poisson_ratio: material.poisson_ratio().unwrap(),
                 radius: Radius::Geometry,
                 indenter: Some(indenter),
-                counterbody: None,
+                indenter_material: None,
                 bias: true,
             }),
             ..Options::default()

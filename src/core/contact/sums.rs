@@ -100,7 +100,7 @@ pub(crate) fn press(
     [load, sum_below(offset, width, approach, |_, width| width)]
 }
 
-/// Adds so many times a field to another.
+/// Adds this many times a field to another.
 #[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn add_scaled(to: &mut [f64], factor: f64, field: &[f64]) {
     for (to, value) in to.iter_mut().zip(field) {

@@ -262,7 +262,7 @@ impl EngineBuilder {
         self.grid.map_or(0, |grid| grid.whole().cells())
     }
 
-    /// Memory (bytes) that a march of an engine takes with so many memory variables per node; that of springs is a guess on the
+    /// Memory (bytes) that a march of an engine takes with this many memory variables per node; that of springs is a guess on the
     /// safe side.
     pub fn predicted_memory_bytes(&self, branches: usize) -> u64 {
         /// Fields of springs in engine and march.

@@ -18,7 +18,7 @@ const LARGEST_GROWTH: f64 = 2.0;
 
 impl Extrapolation {
     /// Turns the last pressure into a guess of the next, `step_s` seconds later. A step of no length is a jump of the drive,
-    /// after which a new course begins. Cells out of contact stay so: when they enter is not to be told from their pressure.
+    /// after which a new course begins. Cells out of contact stay so: when they enter is not known from their pressure.
     pub(crate) fn guess(&mut self, step_s: f64, pressure: &mut [f64]) {
         if step_s <= 0.0 {
             self.forget();

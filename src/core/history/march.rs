@@ -171,7 +171,7 @@ impl<'a, M: Hereditary> March<'a, M> {
         self.hold_in(Self::HOLD_STEPS_PER_DECADE, duration_s, prescribed)
     }
 
-    /// Holds one value for `duration_s`, in steps that grow in proportion to the time since the hold began: so many per
+    /// Holds one value for `duration_s`, in steps that grow in proportion to the time since the hold began: this many per
     /// decade, from a small part of the shortest retardation time on, the smaller the more there are.
     ///
     /// # Errors

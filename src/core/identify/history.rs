@@ -128,7 +128,7 @@ impl<'a> LinearHistory<'a> {
     pub(super) fn numbers(&self, point: &Point) -> Option<Vec<f64>> {
         let known = &self.plan.contact.material;
         let nu = known.compressibility.poisson_ratio();
-        Some(match (self.control, &known.counterbody, nu) {
+        Some(match (self.control, &known.indenter_material, nu) {
             (Control::Approach, None, Some(nu)) => {
                 let loads = self.convolved(point.equilibrium_pa(), &point.branches_pa_s());
                 loads.iter().map(|load| load / (1.0 - nu * nu)).collect()

@@ -28,7 +28,7 @@ pub(super) struct LinearCycle<'a> {
     amplitude: f64,
     compressibility: &'a Compressibility,
     /// Contact compliance (1/Pa) of an indenter that is not rigid: at the frequency, and at rest.
-    counterbody: (Complex<f64>, f64),
+    indenter_material: (Complex<f64>, f64),
     /// Logarithms of the radius (m) and of the product of load and compliance (m^2) that it belongs to, and the power.
     ln_radius: f64,
     ln_product: f64,
@@ -39,17 +39,17 @@ impl<'a> LinearCycle<'a> {
     pub(super) fn new(
         cycle: &MeasuredCycle,
         indenter: &dyn Indenter,
-        (compressibility, counterbody): (&'a Compressibility, Option<&Creep>),
+        (compressibility, indenter_material): (&'a Compressibility, Option<&Creep>),
         equilibrium_pa: f64,
     ) -> Self {
         let drive = &cycle.drive;
-        let counterbody = counterbody.map_or((0.0.into(), 0.0), |creep| {
+        let indenter_material = indenter_material.map_or((0.0.into(), 0.0), |creep| {
             let omega = cycle.angular_frequency_rad_per_s;
             let at_rest = creep.equilibrium_compliance().unwrap_or(0.0);
             (creep.complex_compliance(omega), at_rest)
         });
         let at_rest = compressibility.contact_modulus(equilibrium_pa.into()).re;
-        let compliance = at_rest.recip() + counterbody.1;
+        let compliance = at_rest.recip() + indenter_material.1;
         let attraction = drive.pull_off_n();
         let mean = (drive.mean() + attraction).max(0.5 * (drive.maximum() + attraction));
         let (radius, product, power) = match drive.control() {
@@ -67,7 +67,7 @@ impl<'a> LinearCycle<'a> {
             mean,
             amplitude: drive.amplitude(),
             compressibility,
-            counterbody,
+            indenter_material,
             ln_radius: radius.max(f64::MIN_POSITIVE).ln(),
             ln_product: product.ln(),
             power: match power.is_finite() {
@@ -90,10 +90,10 @@ impl<'a> LinearCycle<'a> {
 
     /// The same of what depends on both bodies, as if the compliance of both were one's.
     fn of_pair(&self, number: Number, equilibrium_pa: f64, modulus: Complex<f64>) -> f64 {
-        let (at_frequency, at_rest) = self.counterbody;
-        let of_contact = |tensile, counterbody| {
+        let (at_frequency, at_rest) = self.indenter_material;
+        let of_contact = |tensile, indenter_material| {
             let own = self.compressibility.contact_modulus(tensile);
-            own / (1.0 + own * counterbody)
+            own / (1.0 + own * indenter_material)
         };
         let modulus = of_contact(modulus, at_frequency);
         let equilibrium_pa = of_contact(equilibrium_pa.into(), at_rest.into()).re;

@@ -127,7 +127,7 @@ pub struct Sought {
     /// A Poisson ratio, or a bulk modulus that is constant in time.
     pub compressibility: Compressibility,
     /// What the indenter is made of, where it is not rigid.
-    pub counterbody: Option<Material>,
+    pub indenter_material: Option<Material>,
 }
 
 /// What drove the contact.
@@ -162,7 +162,7 @@ impl IdentifyPlan {
     ) -> Self {
         let material = Sought {
             compressibility: compressibility.into(),
-            counterbody: None,
+            indenter_material: None,
         };
         Self {
             title: String::new(),
@@ -193,7 +193,7 @@ impl IdentifyPlan {
     /// As [`Material::from_relaxation`].
     pub(crate) fn material(&self, series: &Relaxation) -> Result<Material, MaterialError> {
         let material = self.body(series)?;
-        Ok(match &self.contact.material.counterbody {
+        Ok(match &self.contact.material.indenter_material {
             Some(indenter) => material.against(indenter.clone()),
             None => material,
         })

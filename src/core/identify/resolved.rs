@@ -3,14 +3,15 @@
 use crate::identify::{Driven, IdentifyPlan};
 use crate::simulation::scenario::history_text;
 use crate::sweep::plan::resolved::{
-    compressibility_line, counterbody_text, cycle_text, drive_text, opening_text, solver_text,
-    toml_string,
+    compressibility_line, cycle_text, drive_text, indenter_material_text, opening_text,
+    solver_text, toml_string,
 };
 
 /// The plan as the text of an identification file.
 pub fn resolved_text(plan: &IdentifyPlan) -> String {
     let known = &plan.contact.material;
-    let contact = (plan.contact).blocks(known.counterbody.as_ref().map(counterbody_text));
+    let contact =
+        (plan.contact).blocks(known.indenter_material.as_ref().map(indenter_material_text));
     let known = compressibility_line(&known.compressibility).unwrap_or_default();
     let bodies = format!("[material]\n{known}\n{}{}", contact.layer, contact.indenter);
     let opening = opening_text(&plan.title, &bodies);

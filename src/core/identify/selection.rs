@@ -80,11 +80,12 @@ impl Linearised<'_> {
     /// Linearises about a contact with this equilibrium modulus (Pa).
     pub(super) fn about(&mut self, equilibrium_pa: f64) {
         let indenter = self.plan.contact.indenter.as_ref();
-        let counterbody = self.plan.contact.material.counterbody.as_ref();
-        let counterbody = counterbody.and_then(|material| material.contact_compliance().ok());
+        let indenter_material = self.plan.contact.material.indenter_material.as_ref();
+        let indenter_material =
+            indenter_material.and_then(|material| material.contact_compliance().ok());
         let bodies = (
             &self.plan.contact.material.compressibility,
-            counterbody.as_ref(),
+            indenter_material.as_ref(),
         );
         let cycles = self.plan.measurements.cycles().iter();
         let cycles = cycles.map(|cycle| LinearCycle::new(cycle, indenter, bodies, equilibrium_pa));

@@ -637,7 +637,7 @@ mod tests {
 
     #[test]
     fn nearly_equal_times_keep_their_functions_of_time_through_a_round_trip() {
-        // Gaps down to one part in 2^50: branches cannot be told apart, E(t) and D(t) can.
+        // Gaps down to one part in 2^50: branches cannot be distinguished, E(t) and D(t) can.
         let mut random = Random(5);
         for case in 0..200 {
             let mut branches = random.relaxation(15, 0.0, 3.0, true).branches().to_vec();

@@ -84,7 +84,7 @@ impl Material {
                     .beside(&constrained.scaled(0.75)?)?
             }
         };
-        match &self.counterbody {
+        match &self.indenter_material {
             Some(indenter) => own.beside(&indenter.contact_compliance()?),
             None => Ok(own),
         }
@@ -126,7 +126,7 @@ impl Material {
         let read = Complex::new(storage_pa, loss_pa);
         let nu = self.poisson_ratio().unwrap_or(0.0);
         let lateral = (1.0 - nu) * (1.0 + nu);
-        let own = self.counterbody.as_ref().map(|indenter| {
+        let own = self.indenter_material.as_ref().map(|indenter| {
             indenter.as_indenter_taken_off(read, lateral, angular_frequency_rad_per_s)
         });
         let own = match &self.compressibility {

@@ -126,7 +126,7 @@ pub struct Material {
     isotherms_k: Option<(f64, f64)>,
     alternatives: Vec<Material>,
     replicas: Vec<Material>,
-    counterbody: Option<Box<Material>>,
+    indenter_material: Option<Box<Material>>,
 }
 
 impl Material {
@@ -202,7 +202,7 @@ impl Material {
             isotherms_k: None,
             alternatives: Vec::new(),
             replicas: Vec::new(),
-            counterbody: None,
+            indenter_material: None,
         }
     }
 
@@ -312,13 +312,13 @@ impl Material {
         for other in self.alternatives.iter_mut().chain(&mut self.replicas) {
             *other = other.clone().against(indenter.clone());
         }
-        self.counterbody = Some(Box::new(indenter));
+        self.indenter_material = Some(Box::new(indenter));
         self
     }
 
     /// What the indenter is made of; `None` for a rigid one.
-    pub fn counterbody(&self) -> Option<&Material> {
-        self.counterbody.as_deref()
+    pub fn indenter_material(&self) -> Option<&Material> {
+        self.indenter_material.as_deref()
     }
 
     /// Which part of each branch of the [contact compliance](Self::contact_compliance) is the indenter's, in their order: all or
@@ -328,7 +328,7 @@ impl Material {
     /// As [`Self::contact_compliance`].
     pub fn shares_of_indenter(&self) -> Result<Vec<Option<f64>>, MaterialError> {
         let pair = self.contact_compliance()?;
-        let Some(indenter) = &self.counterbody else {
+        let Some(indenter) = &self.indenter_material else {
             return Ok(vec![None; pair.branches().len()]);
         };
         let own = indenter.contact_compliance()?;

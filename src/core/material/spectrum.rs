@@ -367,7 +367,7 @@ pub(super) fn joined(left: Branch, right: Branch) -> Branch {
 }
 
 impl Series {
-    /// With the branches on neighbouring times of a grid of so many per decade as one: a time between two grid times shows as both.
+    /// With the branches on neighbouring times of a grid of this many per decade as one: a time between two grid times shows as both.
     pub fn runs_merged(&self, per_decade: f64) -> Self {
         let adjacent = 10_f64.powf(1.01 / per_decade);
         let mut branches: Vec<Branch> = Vec::new();

@@ -242,7 +242,7 @@ impl<'a> Model<'a> {
         let own = relaxation.complex_modulus(self.angular);
         let nu = self.contact.poisson_ratio;
         let material = Material::from_relaxation(relaxation, ModulusKind::Longitudinal, nu)?;
-        let material = match &self.contact.counterbody {
+        let material = match &self.contact.indenter_material {
             Some(indenter) => material.against(indenter.clone()),
             None => material,
         };

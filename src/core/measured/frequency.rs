@@ -188,7 +188,7 @@ impl RecordModel {
         }
     }
 
-    /// Chooses the drifts at the frequency of the model, beside so many harmonics.
+    /// Chooses the drifts at the frequency of the model, beside this many harmonics.
     pub(super) fn select_drifts(&mut self, signal: &Signal, harmonics: usize) {
         self.drifts = drift::select(signal, &self.span, self.angular, harmonics);
     }

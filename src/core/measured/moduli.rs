@@ -32,7 +32,7 @@ pub struct Contact {
     /// The shape, where it is known: the geometry needs it, and the exact model.
     pub indenter: Option<Arc<dyn Indenter>>,
     /// What the indenter is made of; `None` for a rigid one.
-    pub counterbody: Option<Material>,
+    pub indenter_material: Option<Material>,
     /// Whether the bias of the formula is computed and taken out.
     pub bias: bool,
 }
@@ -48,7 +48,7 @@ impl Contact {
         let stiffness = cycle.load_n.first()? / cycle.approach_m.first()?;
         let lateral = (1.0 - self.poisson_ratio) * (1.0 + self.poisson_ratio);
         let read = stiffness * lateral / (2.0 * radius_m);
-        Some(match &self.counterbody {
+        Some(match &self.indenter_material {
             Some(indenter) => indenter.as_indenter_taken_off(read, lateral, angular_rad_per_s),
             None => read,
         })
@@ -170,7 +170,7 @@ mod tests {
                 epsilon: 0.75,
             },
             indenter: None,
-            counterbody: None,
+            indenter_material: None,
             bias: false,
         };
         // Stiffness 1e5 N/m: 15 nm of 500 are elastic.

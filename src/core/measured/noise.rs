@@ -26,7 +26,7 @@ const SIDE: i32 = 3;
 
 /// Harmonics looked at for what repeats itself.
 const HARMONICS: usize = 30;
-/// Cycles from which on it is told from what does not.
+/// Cycles from which on it is distinguished from what does not.
 const REPEATED: f64 = 4.0;
 /// Power of a harmonic over that of white noise from which on it is none: by chance one in 20,000 is.
 const STANDS_OUT: f64 = 10.0;
@@ -94,7 +94,7 @@ pub(super) fn correlation(residual: &[f64]) -> f64 {
 }
 
 impl Noise {
-    /// Of the residual of a model with so many coefficients, at these times (s).
+    /// Of the residual of a model with this many coefficients, at these times (s).
     pub(super) fn of(
         residual: &[f64],
         times_s: &[f64],

@@ -119,7 +119,7 @@ impl Harmonics {
             .sum()
     }
 
-    /// The approach over a period, in so many uniform samples, both ends included; the load likewise.
+    /// The approach over a period, in this many uniform samples, both ends included; the load likewise.
     pub fn sampled(&self, samples: usize) -> (Vec<f64>, Vec<f64>) {
         let at = |mean: f64, harmonics: &[Complex<f64>], k: usize| {
             let angle = std::f64::consts::TAU * (k % samples) as f64 / samples as f64;
@@ -196,7 +196,7 @@ mod tests {
             poisson_ratio: 0.3,
             radius: Radius::Column,
             indenter: None,
-            counterbody: None,
+            indenter_material: None,
             bias: false,
         };
         let modulus_pa = contact.modulus_pa(&harmonics, 1e-4, 1.0).unwrap();

@@ -3,7 +3,7 @@
 /// Halvings that exhaust the digits of a double, whatever the interval.
 pub const ALL_DIGITS: u32 = 60;
 
-/// The interval of so many halvings around the place where a condition that holds at `low` ceases to hold on the way to `high`: it
+/// The interval of this many halvings around the place where a condition that holds at `low` ceases to hold on the way to `high`: it
 /// holds at the first end and not at the second, unless that is where it began.
 pub fn bisect(low: f64, high: f64, halvings: u32, holds: impl Fn(f64) -> bool) -> (f64, f64) {
     (0..halvings).fold((low, high), |(low, high), _| {

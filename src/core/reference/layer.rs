@@ -37,7 +37,7 @@ pub struct ElasticContact {
 }
 
 impl LayerContact {
-    /// For this contact radius (m), on so many nodes.
+    /// For this contact radius (m), on this many nodes.
     pub fn new(layer: Layer, radius_m: f64, nodes: usize) -> Self {
         let nodes: Vec<(f64, f64)> = legendre(nodes)
             .into_iter()
@@ -130,7 +130,7 @@ fn kernel(waves: &[(f64, f64)], places_m: &[f64]) -> DMatrix<f64> {
     cosines * weighted
 }
 
-/// Nodes on [-1, 1] and weights of the Gauss-Legendre rule of so many points, by Newton's method.
+/// Nodes on [-1, 1] and weights of the Gauss-Legendre rule of this many points, by Newton's method.
 fn legendre(count: usize) -> Vec<(f64, f64)> {
     let n = count as f64;
     let node = |k: usize| {

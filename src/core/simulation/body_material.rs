@@ -55,8 +55,8 @@ impl BodyMaterial {
     }
 
     /// What the indenter is made of, where it is not rigid.
-    pub fn counterbody(&self) -> Option<&Material> {
-        self.series()?.counterbody()
+    pub fn indenter_material(&self) -> Option<&Material> {
+        self.series()?.indenter_material()
     }
 
     /// Its Poisson ratio, where it is constant in time.

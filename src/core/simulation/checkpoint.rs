@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::contact::surface::Surface;
 use crate::history::StepState;
 use crate::simulation::SurfaceRecord;
-use crate::simulation::follow::Course;
+use crate::simulation::follow::Trajectory;
 use crate::sweep::store::Store;
 use crate::sweep::store::checkpoint_file::{CheckpointFile, Rhythm, Unusable};
 
@@ -34,24 +34,28 @@ pub struct UnusableCheckpoint {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct HistoryState<'a> {
     /// The history at the resolutions before, at their ends.
-    pub(super) finished: Cow<'a, [Course]>,
-    pub(super) course: Cow<'a, Course>,
+    pub(super) finished: Cow<'a, [Trajectory]>,
+    pub(super) trajectory: Cow<'a, Trajectory>,
     pub(super) step: StepState,
 }
 
 impl HistoryState<'_> {
     /// How many moments have their rows, at all resolutions together.
     pub fn steps_done(&self) -> usize {
-        self.courses().map(|course| course.rows.len()).sum()
+        self.trajectories()
+            .map(|trajectory| trajectory.rows.len())
+            .sum()
     }
 
-    fn courses(&self) -> impl Iterator<Item = &Course> {
-        self.finished.iter().chain([&*self.course])
+    fn trajectories(&self) -> impl Iterator<Item = &Trajectory> {
+        self.finished.iter().chain([&*self.trajectory])
     }
 
     /// Whether every surface has one value of each kind at each of its points.
     fn is_whole(&self) -> bool {
-        let surfaces = self.courses().flat_map(|course| &course.surfaces);
+        let surfaces = self
+            .trajectories()
+            .flat_map(|trajectory| &trajectory.surfaces);
         surfaces.flatten().flatten().all(is_whole)
     }
 }
@@ -156,16 +160,16 @@ mod tests {
             gap_m: Some(vec![f64::INFINITY, 0.0]),
         };
         HistoryState {
-            finished: Cow::Owned(vec![Course {
+            finished: Cow::Owned(vec![Trajectory {
                 rows: vec![row(0.1 + 0.2), row(1.0)],
                 surfaces: [vec![Some(radial), None], vec![Some(cells)]],
                 growths: 2,
                 iterations: 7,
                 failed: Some("too \"steep\"".to_owned()),
             }]),
-            course: Cow::Owned(Course {
+            trajectory: Cow::Owned(Trajectory {
                 rows: vec![row(5.0)],
-                ..Course::default()
+                ..Trajectory::default()
             }),
             step: StepState {
                 stage: 1,

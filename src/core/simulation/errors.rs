@@ -11,7 +11,7 @@ use std::collections::HashMap;
 use crate::drive::Fineness;
 use crate::engine::{EngineKind, SolverPlan};
 use crate::simulation::HistoryRow;
-use crate::sweep::record::error_bars::{Ladder, Pair, ROUNDING, SAFETY};
+use crate::sweep::record::error_bars::{Pair, ROUNDING, Refinements, SAFETY};
 
 /// Estimated errors of a row, absolute; `None` where the value is undefined or the estimate is missing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -27,7 +27,7 @@ pub(super) struct Plan {
     /// How fine the steps are, and springs, or cells along the longer side.
     pub(super) resolutions: Vec<(Fineness, usize)>,
     /// In steps, and in nodes, by places among the resolutions.
-    ladders: [Ladder<usize>; 2],
+    refinements: [Refinements<usize>; 2],
     node_orders: [(f64, f64); 4],
 }
 
@@ -88,11 +88,11 @@ impl Plan {
             coarser,
             ratio,
         };
-        let in_nodes = |places: [usize; 3]| Ladder {
+        let in_nodes = |places: [usize; 3]| Refinements {
             first: pair(places[0], places[1], all as f64 / fewer as f64),
             second: Some(pair(places[1], places[2], fewer as f64 / least as f64)),
         };
-        let (resolutions, ladders) = if can_be_coarser {
+        let (resolutions, refinements) = if can_be_coarser {
             let (half, quarter) = (Fineness::EveryNth(2), Fineness::EveryNth(4));
             let resolutions = vec![
                 (full, all),
@@ -101,7 +101,7 @@ impl Plan {
                 (half, fewer),
                 (half, least),
             ];
-            let in_steps = Ladder {
+            let in_steps = Refinements {
                 first: pair(0, 1, 2.0),
                 second: Some(pair(1, 2, 2.0)),
             };
@@ -116,7 +116,7 @@ impl Plan {
             ];
             // The history is the coarser of the two. At the lowest order its error is twice the difference, as that of the finer one of a
             // pair with this ratio.
-            let in_steps = Ladder {
+            let in_steps = Refinements {
                 first: pair(1, 0, 1.5),
                 second: None,
             };
@@ -124,7 +124,7 @@ impl Plan {
         };
         Self {
             resolutions,
-            ladders,
+            refinements,
             node_orders: match engine {
                 EngineKind::Axisymmetric => SPRING_ORDERS,
                 EngineKind::HalfSpace => CELL_ORDERS,
@@ -140,11 +140,11 @@ impl Plan {
         node_orders: (f64, f64),
         difference: impl Fn(&Pair<usize>) -> Option<f64>,
     ) -> Option<f64> {
-        let of = |ladder: &Ladder<usize>, orders| {
-            let second = ladder.second.as_ref().and_then(&difference);
-            Some(ladder.error(difference(&ladder.first)?, second, orders))
+        let of = |refinement: &Refinements<usize>, orders| {
+            let second = refinement.second.as_ref().and_then(&difference);
+            Some(refinement.error(difference(&refinement.first)?, second, orders))
         };
-        let [in_steps, in_nodes] = &self.ladders;
+        let [in_steps, in_nodes] = &self.refinements;
         let (steps, nodes) = (of(in_steps, STEP_ORDERS)?, of(in_nodes, node_orders)?);
         Some(SAFETY * (steps + nodes) + ROUNDING * value.abs())
     }
@@ -166,8 +166,9 @@ impl Plan {
         let stretches = stretches(history.rows);
         let columns = [0, 1, 2, 3].map(|column| {
             let value = VALUES[column];
-            let pairs = self.ladders.iter();
-            let pairs = pairs.flat_map(|ladder| [Some(&ladder.first), ladder.second.as_ref()]);
+            let pairs = self.refinements.iter();
+            let pairs =
+                pairs.flat_map(|refinement| [Some(&refinement.first), refinement.second.as_ref()]);
             let known = pairs.flatten().map(|pair| {
                 let levels = [followed.get(pair.finer), followed.get(pair.coarser)];
                 let differences = differences(levels, value, history.rows.len());

@@ -32,7 +32,7 @@ pub(super) enum MarchError {
 
 /// A history as far as it was followed at one resolution.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(super) struct Course {
+pub(super) struct Trajectory {
     pub(super) rows: Vec<HistoryRow>,
     /// Profiles, then fields, in the order in which they were asked for.
     pub(super) surfaces: [Vec<Option<SurfaceRecord>>; 2],
@@ -47,7 +47,7 @@ pub(super) struct Course {
 /// What a run hands to every resolution.
 pub(super) struct Run<'a> {
     /// What was followed before, at other resolutions.
-    pub finished: &'a [Course],
+    pub finished: &'a [Trajectory],
     pub checkpoint: Option<&'a HistoryCheckpoint>,
     pub interrupt: &'a AtomicBool,
     pub progress: &'a Progress<'a>,
@@ -69,36 +69,37 @@ impl Simulation {
     pub(super) fn follow(
         &self,
         level: &Level,
-        begun: Option<(Course, StepState)>,
+        begun: Option<(Trajectory, StepState)>,
         run: &Run<'_>,
-    ) -> (Course, Result<(), MarchError>) {
-        let (mut course, mut step) = match begun {
-            Some((course, step)) => (course, Some(step)),
-            None => (Course::default(), None),
+    ) -> (Trajectory, Result<(), MarchError>) {
+        let (mut trajectory, mut step) = match begun {
+            Some((trajectory, step)) => (trajectory, Some(step)),
+            None => (Trajectory::default(), None),
         };
         loop {
-            match self.follow_on_domain(level, step.take(), &mut course, run) {
+            match self.follow_on_domain(level, step.take(), &mut trajectory, run) {
                 Err(MarchError::Outgrown(state)) => {
                     step = Some(*state);
-                    course.growths += 1;
+                    trajectory.growths += 1;
                 }
-                ended => return (course, ended),
+                ended => return (trajectory, ended),
             }
         }
     }
 
-    /// The same on the domain that the course has come to.
+    /// The same on the domain that the trajectory has come to.
     fn follow_on_domain(
         &self,
         level: &Level,
         step: Option<StepState>,
-        course: &mut Course,
+        trajectory: &mut Trajectory,
         run: &Run<'_>,
     ) -> Result<(), MarchError> {
-        let engines = self.domain(level, course.growths)?;
+        let engines = self.domain(level, trajectory.growths)?;
         let not_enlarged = engines.not_enlarged(0);
-        let wider = match not_enlarged.is_none() && course.growths < self.halvings + MAX_GROWTHS {
-            true => Some(self.domain(level, course.growths + 1)?.layout()),
+        let wider = match not_enlarged.is_none() && trajectory.growths < self.halvings + MAX_GROWTHS
+        {
+            true => Some(self.domain(level, trajectory.growths + 1)?.layout()),
             false => None,
         };
         let mut engine = engines.engine(0)?;
@@ -117,12 +118,12 @@ impl Simulation {
         let ended = match &self.compliance {
             Compliance::Series(creep) => {
                 let march = March::new(engine.as_mut(), creep.clone(), rule);
-                following.run(march, step.as_ref(), course)
+                following.run(march, step.as_ref(), trajectory)
             }
             Compliance::Samples(curve) => {
                 let memory = DirectMemory::with_room_for(curve.clone(), engine.nodes(), steps);
                 let march = March::with_memory(engine.as_mut(), memory, rule);
-                following.run(march, step.as_ref(), course)
+                following.run(march, step.as_ref(), trajectory)
             }
         };
         match (ended, not_enlarged) {
@@ -133,7 +134,7 @@ impl Simulation {
         }
     }
 
-    /// Engines on the domain that the contact needs after it has outgrown so many: each is twice as wide as the one before.
+    /// Engines on the domain that the contact needs after it has outgrown this many: each is twice as wide as the one before.
     pub(super) fn domain(
         &self,
         level: &Level,
@@ -145,38 +146,38 @@ impl Simulation {
 }
 
 impl Following<'_> {
-    /// Marches to the end, from within a step where an earlier run was if that fits; what there is by then is in the course
+    /// Marches to the end, from within a step where an earlier run was if that fits; what there is by then is in the trajectory
     /// either way.
     fn run<M: Hereditary>(
         &self,
         mut march: March<'_, M>,
         state: Option<&StepState>,
-        course: &mut Course,
+        trajectory: &mut Trajectory,
     ) -> Result<(), MarchError> {
         let profiles = self.simulation.plan.output.profiles_at_s.len();
         // Surfaces are asked for at full resolution alone.
         let wanted = (self.schedule.requested.split_at_checked(profiles)).unwrap_or_default();
         let wanted = [wanted.0, wanted.1];
-        let state = state.filter(|_| self.fits(course, wanted));
+        let state = state.filter(|_| self.fits(trajectory, wanted));
         let stage = state
             .filter(|step| march.restore_step(step))
             .map(|step| step.stage);
         if stage.is_none() {
-            *course = Course {
+            *trajectory = Trajectory {
                 surfaces: wanted.map(|moments| vec![None; moments.len()]),
-                growths: course.growths,
-                ..Course::default()
+                growths: trajectory.growths,
+                ..Trajectory::default()
             };
         }
-        let ended = self.go_on(&mut march, stage, course, wanted);
-        course.iterations = march.work().iterations;
+        let ended = self.go_on(&mut march, stage, trajectory, wanted);
+        trajectory.iterations = march.work().iterations;
         ended
     }
 
-    /// Whether the course can be one of this history.
-    fn fits(&self, course: &Course, wanted: [&[usize]; 2]) -> bool {
-        let mut surfaces = course.surfaces.iter().zip(wanted);
-        course.rows.len() < self.schedule.moments.len()
+    /// Whether the trajectory can be one of this history.
+    fn fits(&self, trajectory: &Trajectory, wanted: [&[usize]; 2]) -> bool {
+        let mut surfaces = trajectory.surfaces.iter().zip(wanted);
+        trajectory.rows.len() < self.schedule.moments.len()
             && surfaces.all(|(stored, wanted)| stored.len() == wanted.len())
     }
 
@@ -185,14 +186,14 @@ impl Following<'_> {
         &self,
         march: &mut March<'_, M>,
         mut stage: Option<usize>,
-        course: &mut Course,
+        trajectory: &mut Trajectory,
         wanted: [&[usize]; 2],
     ) -> Result<(), MarchError> {
         let moments = &self.schedule.moments;
         let drive = &self.simulation.plan.drive;
         let prescribed = |value| engine::prescribed(drive.control(), value);
         let mut guess = Vec::new();
-        for (index, moment) in moments.iter().enumerate().skip(course.rows.len()) {
+        for (index, moment) in moments.iter().enumerate().skip(trajectory.rows.len()) {
             let stages = march.stages(moment.step_s);
             let first = stage.unwrap_or(0);
             for (at, stage_of_step) in stages.iter().enumerate().skip(first) {
@@ -204,7 +205,7 @@ impl Following<'_> {
                 let value = |at| prescribed(drive.value_within(moment, at));
                 let prescribed = stage_of_step.prescribed(value);
                 let weights = &stage_of_step.weights;
-                self.end_stage(march, weights, prescribed, (at, &guess), course)?;
+                self.end_stage(march, weights, prescribed, (at, &guess), trajectory)?;
             }
             let Some(solution) = march.solution() else {
                 continue;
@@ -223,13 +224,13 @@ impl Following<'_> {
                     }
                 {
                     let record = self.surface_record(row, surface);
-                    let places = moments.iter().zip(&mut course.surfaces[kind]);
+                    let places = moments.iter().zip(&mut trajectory.surfaces[kind]);
                     for (_, place) in places.filter(|(moment, _)| **moment == index) {
                         *place = Some(record.clone());
                     }
                 }
             }
-            course.rows.push(row);
+            trajectory.rows.push(row);
             (self.run.progress)(index + 1, moments.len());
         }
         Ok(())
@@ -242,11 +243,11 @@ impl Following<'_> {
         weights: &M::Step,
         prescribed: Prescribed,
         at: (usize, &[f64]),
-        course: &Course,
+        trajectory: &Trajectory,
     ) -> Result<(), MarchError> {
         let interrupted = self.run.interrupt.load(Ordering::Relaxed);
         if interrupted || (self.run.checkpoint).is_some_and(HistoryCheckpoint::is_due) {
-            self.keep(march, at, course);
+            self.keep(march, at, trajectory);
         }
         if interrupted {
             return Err(ContactError::Interrupted.into());
@@ -258,7 +259,7 @@ impl Following<'_> {
                 return Err(MarchError::Outgrown(Box::new(state)));
             }
             (Err(ContactError::Interrupted), _) => {
-                self.keep(march, at, course);
+                self.keep(march, at, trajectory);
                 return Err(ContactError::Interrupted.into());
             }
             (solved, _) => solved?,
@@ -271,12 +272,12 @@ impl Following<'_> {
         &self,
         march: &March<'_, M>,
         (stage, guess): (usize, &[f64]),
-        course: &Course,
+        trajectory: &Trajectory,
     ) {
         if let Some(checkpoint) = self.run.checkpoint {
             checkpoint.write(&HistoryState {
                 finished: Cow::Borrowed(self.run.finished),
-                course: Cow::Borrowed(course),
+                trajectory: Cow::Borrowed(trajectory),
                 step: march.step_state(stage, guess),
             });
         }

@@ -32,7 +32,7 @@ use crate::simulation::body_material::Compliance;
 use crate::simulation::checkpoint::{HistoryCheckpoint, HistoryState};
 use crate::simulation::cycles::HistoryCycle;
 use crate::simulation::errors::{Followed, Plan, RowErrors};
-use crate::simulation::follow::{Course, MarchError, Run};
+use crate::simulation::follow::{MarchError, Run, Trajectory};
 use crate::simulation::scenario::ScenarioPlan;
 use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::setup::{SetupError, check_direct_sum};
@@ -252,7 +252,7 @@ impl Simulation {
     ) -> SimulationOutcome {
         let (mut finished, mut begun) = match state {
             Some(state) if self.fits(&state) => {
-                let begun = (state.course.into_owned(), state.step);
+                let begun = (state.trajectory.into_owned(), state.step);
                 (state.finished.into_owned(), Some(begun))
             }
             _ => (Vec::new(), None),
@@ -260,8 +260,11 @@ impl Simulation {
         let all = self.moments();
         let mut ended = SimulationEnd::Done;
         while let Some(level) = self.levels.get(finished.len()) {
-            let before: usize = finished.iter().map(|course| course.rows.len()).sum();
-            let (course, result) = self.follow(
+            let before: usize = finished
+                .iter()
+                .map(|trajectory| trajectory.rows.len())
+                .sum();
+            let (trajectory, result) = self.follow(
                 level,
                 begun.take(),
                 &Run {
@@ -271,7 +274,7 @@ impl Simulation {
                     progress: &|done, _| progress(before + done, all),
                 },
             );
-            finished.push(course);
+            finished.push(trajectory);
             match (result, finished.len()) {
                 (Ok(()), 1) if self.misses(&finished[0]) => {
                     let approach_m = self.plan.drive.maximum();
@@ -297,47 +300,56 @@ impl Simulation {
     }
 
     /// Whether contact is prescribed but never made.
-    fn misses(&self, course: &Course) -> bool {
+    fn misses(&self, trajectory: &Trajectory) -> bool {
         let drive = &self.plan.drive;
         drive.control() == Control::Approach
             && drive.maximum() > 0.0
-            && course.rows.iter().all(|row| row.load_n == 0.0)
+            && trajectory.rows.iter().all(|row| row.load_n == 0.0)
     }
 
     /// Whether the state can be one of this history.
     fn fits(&self, state: &HistoryState<'_>) -> bool {
-        let mut courses = state.finished.iter().chain([&*state.course]);
+        let mut trajectories = state.finished.iter().chain([&*state.trajectory]);
         state.finished.len() < self.levels.len()
-            && courses.all(|course| course.growths <= self.halvings + MAX_GROWTHS)
+            && trajectories.all(|trajectory| trajectory.growths <= self.halvings + MAX_GROWTHS)
     }
 
-    fn outcome(&self, mut courses: Vec<Course>, ended: SimulationEnd) -> SimulationOutcome {
-        self.take_attraction_off(&mut courses);
-        let mut cycles = cycles::of(&self.plan, &courses[0].rows);
+    fn outcome(
+        &self,
+        mut trajectories: Vec<Trajectory>,
+        ended: SimulationEnd,
+    ) -> SimulationOutcome {
+        self.take_attraction_off(&mut trajectories);
+        let mut cycles = cycles::of(&self.plan, &trajectories[0].rows);
         let mut errors = Vec::new();
         let mut errors_missing = self.without_errors.clone();
         if let (SimulationEnd::Done, Some(plan)) = (&ended, &self.errors) {
-            let followed = courses.iter().zip(&self.levels);
-            let followed = followed.map(|(course, level)| Followed {
-                rows: &course.rows,
+            let followed = trajectories.iter().zip(&self.levels);
+            let followed = followed.map(|(trajectory, level)| Followed {
+                rows: &trajectory.rows,
                 in_full: &level.schedule.in_full,
             });
             errors = plan.errors(&followed.collect::<Vec<_>>());
-            let coarser = courses.iter().skip(1);
-            let coarser = coarser.map(|course| cycles::of(&self.plan, &course.rows));
+            let coarser = trajectories.iter().skip(1);
+            let coarser = coarser.map(|trajectory| cycles::of(&self.plan, &trajectory.rows));
             cycles::add_errors(&mut cycles, &coarser.collect::<Vec<_>>(), plan);
-            let failed = courses.iter().find_map(|course| course.failed.as_ref());
+            let failed = trajectories
+                .iter()
+                .find_map(|trajectory| trajectory.failed.as_ref());
             errors_missing = errors_missing.or(failed.map(|why| {
                 format!("the coarser history that tells the errors could not be followed: {why}")
             }));
         }
-        let iterations = courses.iter().map(|course| course.iterations).sum();
-        let Course {
+        let iterations = trajectories
+            .iter()
+            .map(|trajectory| trajectory.iterations)
+            .sum();
+        let Trajectory {
             rows,
             surfaces,
             growths,
             ..
-        } = courses.swap_remove(0);
+        } = trajectories.swap_remove(0);
         let [profiles, fields] = surfaces.map(|s| s.into_iter().flatten().collect());
         SimulationOutcome {
             rows,
@@ -356,12 +368,12 @@ impl Simulation {
     }
 
     /// Takes the attraction, which the contact carries too, off all loads.
-    fn take_attraction_off(&self, courses: &mut [Course]) {
+    fn take_attraction_off(&self, trajectories: &mut [Trajectory]) {
         let pull_off_n = self.plan.drive.pull_off_n();
         if pull_off_n == 0.0 {
             return;
         }
-        for Course { rows, surfaces, .. } in courses {
+        for Trajectory { rows, surfaces, .. } in trajectories {
             let of_surfaces = surfaces.iter_mut().flatten().flatten();
             let rows = rows.iter_mut().chain(of_surfaces.map(|s| &mut s.row));
             rows.for_each(|row| row.load_n -= pull_off_n);
@@ -402,8 +414,8 @@ fn halvings(full: &Level, largest: LargestContact, compliance: &Compliance) -> u
 }
 
 /// An error with the time and segment at which it arose: those of the first moment without a row.
-fn place(level: &Level, course: &Course, error: &MarchError) -> String {
-    match level.schedule.moments.get(course.rows.len()) {
+fn place(level: &Level, trajectory: &Trajectory, error: &MarchError) -> String {
+    match level.schedule.moments.get(trajectory.rows.len()) {
         Some(moment) => format!(
             "at {}, in segment {} of the drive: {error}",
             format_human(moment.time_s, Dimension::Time, 6),
@@ -521,7 +533,7 @@ mod tests {
         }
     }
 
-    /// A sphere of 10 mm whose contact is foretold far too small.
+    /// A sphere of 10 mm whose contact is predicted far too small.
     #[derive(Debug)]
     struct Underrated(Sphere);
 
@@ -572,7 +584,7 @@ mod tests {
             let state = checkpoint.find().unwrap();
             grown = state
                 .as_ref()
-                .map_or(0, |state| state.course.growths)
+                .map_or(0, |state| state.trajectory.growths)
                 .max(grown);
             let (interrupt, steps) = (AtomicBool::new(false), Cell::new(0));
             let outcome = simulation.run_from(state, Some(&checkpoint), &interrupt, &|_, _| {

@@ -48,7 +48,10 @@ fn material_error(plan: &ScenarioPlan) -> Option<Warning> {
             findings.any(|finding| matches!(finding, TableWarning::Noise { .. }))
         }
     };
-    let bodies = material.series().into_iter().chain(material.counterbody());
+    let bodies = material
+        .series()
+        .into_iter()
+        .chain(material.indenter_material());
     let others = bodies.map(|body| body.alternatives().len() + body.replicas().len());
     let others = others.sum();
     (is_noisy || others > 0).then_some(Warning::NoMaterialError { others })

@@ -131,7 +131,11 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
     } = output;
     let material = &contact.material;
     let solver_text = resolved::solver_text(solver, contact.indenter.as_ref());
-    let contact = contact.blocks(material.counterbody().map(resolved::counterbody_text));
+    let contact = contact.blocks(
+        material
+            .indenter_material()
+            .map(resolved::indenter_material_text),
+    );
     let blocks = material.text() + &contact.layer + &contact.indenter;
     let step =
         step_s.map(|step_s| format!("\n[time]\nstep = {}\n", quoted(step_s, Dimension::Time)));

@@ -146,7 +146,7 @@ impl Correction {
         }
     }
 
-    /// Weights in the least squares of the branches of so many nodes.
+    /// Weights in the least squares of the branches of this many nodes.
     pub(super) fn weights(&self, nodes: usize) -> Vec<f64> {
         let of_branches = self.weights.iter();
         let of_nodes = of_branches.flat_map(|weight| std::iter::repeat_n(*weight, nodes));

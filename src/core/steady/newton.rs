@@ -3,7 +3,7 @@
 //! On fixed contacts of all steps the map over a cycle is linear. It consists of linear pieces, and a body that relaxes strongly and is
 //! touched for a few steps only meets very many of them. The acceleration of [`find`] puts together changes between cycles of
 //! different pieces, which belong to none, and may lead in circles for ever. Here every system is of one piece, that of the memory
-//! reached: its matrix is told from cycles beside that memory, so near that hardly a cell changes, and Anderson acceleration, on a
+//! reached: its matrix is known from cycles beside that memory, so near that hardly a cell changes, and Anderson acceleration, on a
 //! linear map a method of least residuals (H. F. Walker and P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715), solves it, preconditioned
 //! with the monodromy of the nodes alone ([`Correction`]). The step is halved until the distance falls, as it does, on a piece, for an
 //! exact one. There is one answer alone: of the energy by which two memories differ every cycle takes away a part, whichever of load

@@ -82,17 +82,17 @@ impl<'a> Blocks<'a> {
             problems: root.problems(),
         };
         file.refuse_beside_lists(root);
-        let counterbody = file.counterbody(root);
+        let indenter_material = file.indenter_material(root);
         let layer = file.layer(root);
-        let has_counterbody =
-            (counterbody.as_ref()).is_some_and(|over| over.all().any(Option::is_some));
-        layer_block::refuse_second_body(root, has_counterbody);
-        let counterbody = counterbody.filter(|over| {
+        let has_indenter_material =
+            (indenter_material.as_ref()).is_some_and(|over| over.all().any(Option::is_some));
+        layer_block::refuse_second_body(root, has_indenter_material);
+        let indenter_material = indenter_material.filter(|over| {
             let mut bodies = over.all().flatten();
             bodies.all(|body| check_contact(file.problems, body))
         });
         let given_blocks = file.given_blocks(root);
-        let material = file.material(root).zip(counterbody);
+        let material = file.material(root).zip(indenter_material);
         let indenter = file.indenter(root);
         let pressed = Pressed {
             area_m2: indenter.as_ref().and_then(period_area_m2),
@@ -299,12 +299,13 @@ impl File<'_> {
     }
 
     /// What the indenter is made of, where it is not rigid. What is wrong with the block itself is told where its shape is read.
-    fn counterbody(&self, root: &mut TableReader<'_>) -> Option<Over<Option<Body>>> {
+    fn indenter_material(&self, root: &mut TableReader<'_>) -> Option<Over<Option<Body>>> {
         if root.parsed(&keys::INDENTER).is_none() && self.listed(Block::Indenter).is_none() {
             return Some(Over::same(None));
         }
         let swept = self.swept_where(|varied| {
-            varied.is_of_counterbody() || (varied.block == Block::Indenter && varied.is_whole())
+            varied.is_of_indenter_material()
+                || (varied.block == Block::Indenter && varied.is_whole())
         });
         self.block(root, &keys::INDENTER, swept, |t| {
             Some(indenter_block::material_of(t)?.map(Arc::new))
@@ -359,17 +360,17 @@ impl File<'_> {
         let in_material = |varied: &Varied| varied.block == Block::Material && varied.is_nested();
         let material = root.parsed(&keys::MATERIAL);
         let indenter = root.parsed(&keys::INDENTER);
-        let counterbody = indenter.and_then(|indenter| indenter.table("material"));
+        let indenter_material = indenter.and_then(|indenter| indenter.table("material"));
         let text = |table: Option<&tree::Table>, header, is_varied| {
             let table = table.filter(|_| is_varied)?;
             Some(table.toml(header).into())
         };
         GivenBlocks {
             material: text(material, "material", varies(&in_material)),
-            counterbody: text(
-                counterbody,
+            indenter_material: text(
+                indenter_material,
                 "indenter.material",
-                varies(&Varied::is_of_counterbody),
+                varies(&Varied::is_of_indenter_material),
             ),
         }
     }
@@ -380,8 +381,9 @@ impl File<'_> {
         if let (Some(given), None) = (given, root.key_location(&keys::INDENTER)) {
             return Some(Over::same(Arc::clone(given)));
         }
-        let swept = self
-            .swept_where(|varied| varied.block == Block::Indenter && !varied.is_of_counterbody());
+        let swept = self.swept_where(|varied| {
+            varied.block == Block::Indenter && !varied.is_of_indenter_material()
+        });
         let over = self.block(root, &keys::INDENTER, swept, indenter_block::read)?;
         let has_other_cells = |other: &Arc<dyn Indenter>| other.own_cells() != over.own.own_cells();
         if let Some(list) = list.filter(|_| over.all().any(has_other_cells)) {

@@ -186,7 +186,7 @@ pub(super) fn material(material: &Material) -> Markup {
 pub(super) fn indenter_body(shape: &dyn Indenter, pressed: Option<&Material>) -> Markup {
     html! {
         (indenter(shape))
-        @if let Some(own) = pressed.and_then(Material::counterbody) { (material(own)) }
+        @if let Some(own) = pressed.and_then(Material::indenter_material) { (material(own)) }
     }
 }
 

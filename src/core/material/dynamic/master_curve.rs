@@ -108,7 +108,7 @@ pub enum MasterCurveWarning {
         temperature_k: f64,
         error: Option<f64>,
     },
-    /// Neither law describes the factors: the preferred one leaves so many times their errors (root mean square).
+    /// Neither law describes the factors: the preferred one leaves this many times their errors (root mean square).
     #[error(
         "neither WLF nor Arrhenius describes the shift factors: the better one leaves {deviation:.1} times their errors"
     )]

@@ -160,7 +160,7 @@ impl OneCurve {
         2 * self.values.len()
     }
 
-    /// Numbers less the unknowns of a state whose places have so many.
+    /// Numbers less the unknowns of a state whose places have this many.
     pub(super) fn freedom(&self, state: &State, unknowns: usize) -> f64 {
         (self.count() as f64 - (state.linear + unknowns) as f64).max(1.0)
     }

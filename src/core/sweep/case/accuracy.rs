@@ -23,8 +23,8 @@ impl Levels<'_> {
             EngineKind::Axisymmetric => (64, (20_000, 6_400)),
             EngineKind::HalfSpace => (64, (4_000, 1_024)),
         };
-        self.course.at.nodes = nodes;
-        let finest = (finest.0.max(self.course.at.steps), finest.1);
+        self.effort.at.nodes = nodes;
+        let finest = (finest.0.max(self.effort.at.steps), finest.1);
         let (mut last, mut failure) = (None, None);
         for _ in 0..ROUNDS {
             let found = match self.at_resolution() {
@@ -42,7 +42,7 @@ impl Levels<'_> {
                 failure = found.message.clone().filter(|_| loss_and_bar.is_none());
             }
             last = found.or(last);
-            let at = self.course.at;
+            let at = self.effort.at;
             let (steps, nodes) = match loss_and_bar {
                 // No result, or no error of it.
                 None => (2 * at.steps, 2 * at.nodes),
@@ -71,7 +71,7 @@ impl Levels<'_> {
             if steps > finest.0 || nodes > finest.1 {
                 break;
             }
-            self.course.at = Resolution { steps, nodes };
+            self.effort.at = Resolution { steps, nodes };
         }
         Ok(self.out_of_reach(last, failure, accuracy))
     }
@@ -83,7 +83,7 @@ impl Levels<'_> {
         failure: Option<String>,
         accuracy: f64,
     ) -> Stabilised {
-        let Resolution { steps, nodes } = self.course.at;
+        let Resolution { steps, nodes } = self.effort.at;
         let mut last = last.unwrap_or_else(|| Stabilised::none(self.contact.cycle.method));
         let reached = last.result.take().as_ref().and_then(loss_and_bar);
         let reached = reached.map_or(f64::INFINITY, |(loss_j, bar)| (bar.total() / loss_j).abs());

@@ -11,7 +11,7 @@ use crate::sweep::case::lift_off;
 use crate::sweep::case::stabilise::{CaseError, Contact, InSteps, Stabilised, Wanted, start_of};
 use crate::sweep::case::{Resolution, Setup, SetupError};
 use crate::sweep::record::CaseResult;
-use crate::sweep::record::error_bars::{Edge, ErrorBars, InNodes, Ladder, Pair, Quantity};
+use crate::sweep::record::error_bars::{Edge, ErrorBars, InNodes, Pair, Quantity, Refinements};
 
 /// Fewest steps and nodes that a coarser resolution may have: below, a cycle has no shape, and its error says nothing.
 const FEWEST_STEPS: usize = 8;
@@ -21,11 +21,11 @@ const FEWEST_NODES: usize = 12;
 pub(super) struct Levels<'a> {
     pub setup: &'a Setup,
     pub contact: Contact<'a>,
-    pub course: &'a mut Course,
+    pub effort: &'a mut Effort,
 }
 
 /// What a case has taken so far, whatever becomes of it.
-pub(super) struct Course {
+pub(super) struct Effort {
     /// The resolution of its result.
     pub at: Resolution,
     /// Half width (m) of the domain last tried for it, and how often that was enlarged.
@@ -35,7 +35,7 @@ pub(super) struct Course {
     pub work: Work,
 }
 
-impl Course {
+impl Effort {
     /// Nothing solved yet at this resolution.
     pub fn at(at: Resolution) -> Self {
         Self {
@@ -62,7 +62,7 @@ impl Levels<'_> {
 
     /// Solves at the resolution of the case, and at coarser ones where error bars are wanted.
     pub fn at_resolution(&mut self) -> Result<Stabilised, CaseError> {
-        let Resolution { steps: fine, nodes } = self.course.at;
+        let Resolution { steps: fine, nodes } = self.effort.at;
         let bars = self.contact.cycle.error_bars && self.can_be_coarsened()?;
         // From coarse to fine: each number of steps starts the next from its memory.
         let steps = match (bars, self.engine()) {
@@ -72,9 +72,9 @@ impl Levels<'_> {
         };
         let mut domain = (0.0, 0);
         let solved = self.solve(&self.contact, nodes, (steps, fine), &mut domain);
-        (self.course.domain_half_width_m, self.course.domain_enlarged) = domain;
+        (self.effort.domain_half_width_m, self.effort.domain_enlarged) = domain;
         let mut level = solved?;
-        self.course.work += level.work();
+        self.effort.work += level.work();
         let (errors, note) = match bars && level.finest.result.is_some() {
             true => self.error_bars(&mut level)?,
             false => (None, None),
@@ -99,7 +99,7 @@ impl Levels<'_> {
             let why = "no error bars: no coarser resolution stabilised, or the contact is shorter than two time steps";
             Ok((None, Some(why.to_owned())))
         };
-        let Resolution { steps, nodes } = self.course.at;
+        let Resolution { steps, nodes } = self.effort.at;
         let between = |fine: usize| 4 * (3 * fine / 16).max(1);
         let mut middle = steps / 2;
         if all.result(middle).is_none() {
@@ -171,7 +171,7 @@ impl Levels<'_> {
         quarter: Option<&Level>,
         others: &[Option<CaseResult>],
     ) -> Option<ErrorBars> {
-        let (contact, at) = (&self.contact, self.course.at);
+        let (contact, at) = (&self.contact, self.effort.at);
         let result = all.result(at.steps)?;
         let (on_all, on_half) = (all.result(middle)?, half.result(middle)?);
         let pair = |finer, coarser, fine: usize, coarse: usize| Pair {
@@ -185,12 +185,12 @@ impl Levels<'_> {
             let (finer, coarser) = (on.result(middle)?, on.result(coarsest)?);
             Some(pair(finer, coarser, middle, coarsest))
         });
-        let in_steps = Ladder {
+        let in_steps = Refinements {
             first: pair(result, on_all, at.steps, middle),
             second: second.filter(|_| middle == at.steps / 2),
         };
         let on_quarter = quarter.and_then(|on| Some((on.result(middle)?, on.nodes)));
-        let in_nodes = Ladder {
+        let in_nodes = Refinements {
             first: pair(on_all, on_half, all.nodes, half.nodes),
             second: on_quarter.map(|(result, nodes)| pair(on_half, result, half.nodes, nodes)),
         };
@@ -204,7 +204,7 @@ impl Levels<'_> {
         let (distance, believed) = match self.engine() {
             EngineKind::Axisymmetric => (distance, InNodes::SPRINGS),
             EngineKind::HalfSpace => {
-                let cell_m = 2.0 * self.course.domain_half_width_m / at.nodes as f64;
+                let cell_m = 2.0 * self.effort.domain_half_width_m / at.nodes as f64;
                 let condition = contact.condition;
                 let (indenter, on_layer) = (
                     condition.contact.indenter.as_ref(),
@@ -251,7 +251,7 @@ impl Levels<'_> {
             }
             Err(_) => Ok(None),
             Ok(level) => {
-                self.course.work += level.work();
+                self.effort.work += level.work();
                 Ok(Some(level))
             }
         }
@@ -259,14 +259,14 @@ impl Levels<'_> {
 
     /// Whether a coarser resolution exists and means the same contact: an indenter on its own cells has no coarser one.
     fn can_be_coarsened(&self) -> Result<bool, SetupError> {
-        Ok(self.course.at.steps / 4 >= FEWEST_STEPS
-            && self.course.at.nodes / 2 >= FEWEST_NODES
+        Ok(self.effort.at.steps / 4 >= FEWEST_STEPS
+            && self.effort.at.nodes / 2 >= FEWEST_NODES
             && !self.has_own_cells()?)
     }
 
     /// Whether the cells are those of the indenter.
     pub fn has_own_cells(&self) -> Result<bool, SetupError> {
-        let engines = (self.setup).engines(self.contact.condition, self.course.at.nodes)?;
+        let engines = (self.setup).engines(self.contact.condition, self.effort.at.nodes)?;
         Ok(engines.has_cells_of_its_own())
     }
 

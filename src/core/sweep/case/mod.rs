@@ -26,7 +26,7 @@ use crate::engine::instant_tolerance;
 use crate::engine::{EngineBuilder, EngineError, LargestContact};
 use crate::material::{Creep, Material};
 use crate::sweep::case::checkpoint::Checkpoints;
-use crate::sweep::case::levels::{Course, Levels};
+use crate::sweep::case::levels::{Effort, Levels};
 pub use crate::sweep::case::recording::sample;
 use crate::sweep::case::solid::Solid;
 use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised, Wanted};
@@ -162,7 +162,7 @@ impl Setup {
     /// As [`Setup::new`], of a condition that is none of the plan.
     pub(crate) fn solid(&self, condition: &Condition) -> Result<Arc<Solid>, SetupError> {
         let key = Arc::as_ptr(&condition.contact.material).addr();
-        let mut solids = whole(&self.solids);
+        let mut solids = locked(&self.solids);
         if let Some((_, solid)) = solids.get(&key) {
             return Ok(Arc::clone(solid));
         }
@@ -172,7 +172,7 @@ impl Setup {
         Ok(solid)
     }
 
-    /// Engines for a condition with so many springs or cells, built once.
+    /// Engines for a condition with this many springs or cells, built once.
     ///
     /// # Errors
     /// As [`Setup::new`].
@@ -191,7 +191,7 @@ impl Setup {
             poisson_ratio: condition.contact.material.poisson_ratio(),
             layer: condition.contact.layer,
         };
-        let mut engines = whole(&self.engines);
+        let mut engines = locked(&self.engines);
         if let Some(builder) = engines.get(&key) {
             return Ok(Arc::clone(builder));
         }
@@ -316,18 +316,18 @@ impl Setup {
         if aim.wanted != Wanted::Everything {
             (cycle.error_bars, cycle.accuracy) = (false, None);
         }
-        let mut course = Course::at(Resolution {
+        let mut effort = Effort::at(Resolution {
             steps: cycle.steps,
             nodes,
         });
-        let ended = self.solve(aim, (case, cycle), (checkpoints, interrupt), &mut course);
+        let ended = self.solve(aim, (case, cycle), (checkpoints, interrupt), &mut effort);
         if let Err(CaseError::Contact(ContactError::Interrupted)) = ended {
             if let Some(checkpoints) = checkpoints {
                 checkpoints.flush();
             }
             return None;
         }
-        Some(self.record(case, cycle, course, ended))
+        Some(self.record(case, cycle, effort, ended))
     }
 
     fn solve(
@@ -335,7 +335,7 @@ impl Setup {
         aim: Aim,
         (case, cycle): (&Case, CyclePlan),
         (checkpoints, interrupt): (Option<&Checkpoints>, &AtomicBool),
-        course: &mut Course,
+        effort: &mut Effort,
     ) -> Result<Stabilised, CaseError> {
         check_frequency(case.angular_frequency_rad_per_s).map_err(SetupError::from)?;
         let solid = self.solid(&case.condition)?;
@@ -354,7 +354,7 @@ impl Setup {
         let mut levels = Levels {
             setup: self,
             contact,
-            course,
+            effort,
         };
         let mut found = match cycle.accuracy {
             Some(accuracy) => levels.within_accuracy(accuracy)?,
@@ -375,7 +375,7 @@ impl Setup {
         &self,
         case: &Case,
         cycle: CyclePlan,
-        course: Course,
+        effort: Effort,
         ended: Result<Stabilised, CaseError>,
     ) -> CaseRecord {
         let (found, error) = match ended {
@@ -392,7 +392,7 @@ impl Setup {
             result.cycle.round_profiles();
         }
         let (condition, omega) = (&case.condition, case.angular_frequency_rad_per_s);
-        let at = course.at;
+        let at = effort.at;
         let wants_bars = cycle.error_bars || cycle.accuracy.is_some();
         let of_case = (omega, at.steps);
         CaseRecord {
@@ -420,18 +420,18 @@ impl Setup {
             nodes: at.nodes,
             cycles: found.cycles,
             steady_distance: found.distance.filter(|distance| distance.is_finite()),
-            domain_half_width_m: match course.domain_half_width_m.is_finite() {
-                true => course.domain_half_width_m,
+            domain_half_width_m: match effort.domain_half_width_m.is_finite() {
+                true => effort.domain_half_width_m,
                 false => 0.0,
             },
-            domain_enlarged: course.domain_enlarged,
-            work: course.work,
+            domain_enlarged: effort.domain_enlarged,
+            work: effort.work,
             result,
         }
     }
 }
 
-/// What a lock protects: whole, whatever became of the thread that held it, since entries are made before they are put in.
-fn whole<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+/// What a lock protects, whatever became of the thread that held it, since entries are made before they are put in.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -14,7 +14,7 @@ pub(crate) struct Pressures {
 }
 
 impl Pressures {
-    /// Nothing taken yet of a cycle in so many steps.
+    /// Nothing taken yet of a cycle in this many steps.
     pub(crate) fn new(drive: &HarmonicDrive, steps: usize) -> Self {
         Self {
             steps: Quarter::ALL.map(|quarter| (quarter, nearest_step(quarter, drive, steps))),

@@ -23,7 +23,7 @@ pub(super) struct Recording {
 }
 
 impl Recording {
-    /// Nothing recorded yet of a cycle on so many nodes and in so many steps.
+    /// Nothing recorded yet of a cycle on this many nodes and in this many steps.
     pub fn new(contact: &Contact<'_>, nodes: usize, steps: usize) -> Self {
         let step_s = contact.period_s() / steps as f64;
         let (everything, numbers) = (Wanted::Everything, Wanted::Numbers);

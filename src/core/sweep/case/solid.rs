@@ -67,7 +67,7 @@ impl Solid {
             others.iter().map(solid).collect()
         };
         // The indenter's own differ from its material one at a time, as those of the body do.
-        let indenter = material.counterbody().into_iter();
+        let indenter = material.indenter_material().into_iter();
         let indenters = indenter.flat_map(Material::alternatives);
         let with_other = |other: &Material| material.clone().against(other.clone());
         let mut alternatives = material.alternatives().to_vec();

@@ -364,7 +364,7 @@ impl Contact<'_> {
         Ok(found)
     }
 
-    /// Marches until a cycle is within the tolerance, after a direct search that failed in so many cycles for a reason, if any did.
+    /// Marches until a cycle is within the tolerance, after a direct search that failed in this many cycles for a reason, if any did.
     fn march(
         &self,
         engine: &mut dyn Engine,

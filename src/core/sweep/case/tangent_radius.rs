@@ -19,7 +19,7 @@ pub(crate) struct TangentRadius {
 }
 
 impl TangentRadius {
-    /// Nothing taken yet of a cycle in so many steps.
+    /// Nothing taken yet of a cycle in this many steps.
     pub(crate) fn new(steps: usize) -> Self {
         Self {
             every: steps.div_ceil(INSTANTS).max(1),

@@ -39,9 +39,9 @@ pub enum Format {
 pub enum Form {
     Svg,
     Pdf,
-    /// With so many pixels per inch on paper.
+    /// With this many pixels per inch on paper.
     PngOfDpi(usize),
-    /// With so many pixels per px.
+    /// With this many pixels per px.
     PngOfScale(f32),
 }
 

@@ -32,7 +32,7 @@ pub struct GivenBlocks {
     /// `[material]`.
     pub material: Option<Arc<str>>,
     /// `[indenter.material]`.
-    pub counterbody: Option<Arc<str>>,
+    pub indenter_material: Option<Arc<str>>,
 }
 
 /// The key whose number differs between conditions, or the block that is another one under each.
@@ -221,7 +221,7 @@ impl Varied {
         if self.is_whole() {
             return self.block.name().to_owned();
         }
-        let own = match self.is_of_counterbody() {
+        let own = match self.is_of_indenter_material() {
             true => &self.key["material.".len()..],
             false => &self.key,
         };
@@ -282,7 +282,7 @@ impl Varied {
     }
 
     /// Whether it is a number of what the indenter is made of.
-    pub fn is_of_counterbody(&self) -> bool {
+    pub fn is_of_indenter_material(&self) -> bool {
         self.block == Block::Indenter && self.key.starts_with("material.")
     }
 

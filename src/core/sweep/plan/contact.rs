@@ -47,7 +47,7 @@ impl<M> ContactPlan<M> {
     }
 
     /// The blocks of a resolved file, but for the material's, where this is the one of what the indenter is made of.
-    pub(crate) fn blocks(&self, counterbody: Option<String>) -> ContactBlocks {
+    pub(crate) fn blocks(&self, indenter_material: Option<String>) -> ContactBlocks {
         // By name, so that what is added to a contact and not written here, and so not hashed, does not compile.
         let Self {
             material: _,
@@ -57,7 +57,7 @@ impl<M> ContactPlan<M> {
         } = self;
         ContactBlocks {
             layer: layer.map_or(String::new(), |layer| layer.text()),
-            indenter: resolved::indenter_text(indenter.as_ref(), counterbody),
+            indenter: resolved::indenter_text(indenter.as_ref(), indenter_material),
             adhesion: adhesion.map_or(String::new(), |adhesion| adhesion.text()),
         }
     }

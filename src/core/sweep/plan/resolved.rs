@@ -40,11 +40,14 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
             material_of(&contact.material, conditions, axes)
         }
     };
-    let counterbody = match given.and_then(|given| given.counterbody.as_deref()) {
+    let indenter_material = match given.and_then(|given| given.indenter_material.as_deref()) {
         Some(block) => Some(block.to_owned()),
-        None => contact.material.counterbody().map(counterbody_text),
+        None => contact
+            .material
+            .indenter_material()
+            .map(indenter_material_text),
     };
-    let contact = contact.blocks(counterbody);
+    let contact = contact.blocks(indenter_material);
     blocks.push_str(&contact.layer);
     if !is_listed(Block::Indenter) {
         blocks.push_str(&contact.indenter);
@@ -127,7 +130,7 @@ pub(crate) fn cycle_text(cycle: &CyclePlan) -> String {
 }
 
 /// The `[indenter.material]` block.
-pub(crate) fn counterbody_text(material: &Material) -> String {
+pub(crate) fn indenter_material_text(material: &Material) -> String {
     // Only the material of the body has alternatives in a file.
     let own = material.clone().with_alternatives(Vec::new());
     let moved = |line: &str| match line.split_once("[material") {
@@ -164,8 +167,12 @@ fn listed_text(plan: &SweepPlan, axis: usize, varied: &Varied) -> String {
         };
         let (block, name) = match varied.block {
             Block::Indenter => {
-                let counterbody = first.contact.material.counterbody().map(counterbody_text);
-                let block = indenter_text(first.contact.indenter.as_ref(), counterbody);
+                let indenter_material = first
+                    .contact
+                    .material
+                    .indenter_material()
+                    .map(indenter_material_text);
+                let block = indenter_text(first.contact.indenter.as_ref(), indenter_material);
                 (block, Some(toml_string(name)))
             }
             _ => (
@@ -195,12 +202,12 @@ pub(crate) fn opening_text(title: &str, blocks: &str) -> String {
 }
 
 /// The `[indenter]` block and that of what it is made of, with an empty line before each.
-pub(crate) fn indenter_text(indenter: &dyn Indenter, counterbody: Option<String>) -> String {
+pub(crate) fn indenter_text(indenter: &dyn Indenter, indenter_material: Option<String>) -> String {
     let parameters = indenter.parameters();
     let parameters = parameters
         .iter()
         .map(|p| format!("{}\n", parameter_text(p)));
-    let of_indenter = counterbody.map(|block| format!("\n{block}"));
+    let of_indenter = indenter_material.map(|block| format!("\n{block}"));
     format!(
         "\n[indenter]\nshape = \"{}\"\n{}{}",
         indenter.shape(),

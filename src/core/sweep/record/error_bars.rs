@@ -290,12 +290,12 @@ pub struct Pair<T> {
 
 /// What is known of the error from one resolution: the pair at the result, and, where there is one, the next coarser pair.
 #[derive(Debug, Clone, Copy)]
-pub struct Ladder<T> {
+pub struct Refinements<T> {
     pub first: Pair<T>,
     pub second: Option<Pair<T>>,
 }
 
-impl<T> Ladder<T> {
+impl<T> Refinements<T> {
     /// The error of the finest, from the differences of both pairs and the lowest and the highest order believed.
     pub(crate) fn error(&self, first: f64, second: Option<f64>, orders: (f64, f64)) -> f64 {
         let ratio = self.second.as_ref().map(|pair| pair.ratio);
@@ -321,8 +321,8 @@ impl ErrorBars {
     /// differences that other materials make which the data do not tell from this one. The order is the highest believed.
     pub fn estimate(
         result: &CaseResult,
-        (steps, order_in_steps): (&Ladder<&CaseResult>, f64),
-        (nodes, believed): (&Ladder<&CaseResult>, InNodes),
+        (steps, order_in_steps): (&Refinements<&CaseResult>, f64),
+        (nodes, believed): (&Refinements<&CaseResult>, InNodes),
         steady_distance: f64,
         alternatives: &[(&CaseResult, &CaseResult)],
     ) -> Self {
@@ -379,17 +379,21 @@ impl ErrorBars {
     }
 }
 
-/// Error of the finest value of a ladder; `None` where a value is absent.
-fn error(quantity: Quantity, ladder: &Ladder<&CaseResult>, orders: (f64, f64)) -> Option<f64> {
+/// Error of the finest value of a refinement; `None` where a value is absent.
+fn error(
+    quantity: Quantity,
+    refinement: &Refinements<&CaseResult>,
+    orders: (f64, f64),
+) -> Option<f64> {
     let difference = |pair: &Pair<&CaseResult>| {
         let (finer, coarser) = (quantity.of(pair.finer)?, quantity.of(pair.coarser)?);
         Some((finer - coarser).abs())
     };
-    let second = match &ladder.second {
+    let second = match &refinement.second {
         Some(pair) => Some(difference(pair)?),
         None => None,
     };
-    Some(ladder.error(difference(&ladder.first)?, second, orders))
+    Some(refinement.error(difference(&refinement.first)?, second, orders))
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use crate::material::dynamic::replicas;
 
-/// Fewest replicas of which the spread is told.
+/// Fewest replicas of which the spread is reported.
 const FEWEST: usize = 8;
 /// As many in a hundred may be without a value: more of them would be those that matter.
 const MOST_WITHOUT: usize = 10;

@@ -79,7 +79,7 @@ pub enum Warning {
     EnergyImbalance { part: f64 },
     /// Error bars were wanted, and there are none.
     NoErrorBars { because: NoErrorBars },
-    /// A history has error bars, and its material is not known exactly: it may be any of so many others, or, of none, comes from noisy
+    /// A history has error bars, and its material is not known exactly: it may be any of this many others, or, of none, comes from noisy
     /// samples.
     NoMaterialError { others: usize },
 }
@@ -160,7 +160,7 @@ impl Warning {
         (is_negative && !result.branches.is_empty()).then_some(Self::NegativeLoss { energy_loss_j })
     }
 
-    /// What is to be said of a contact that lasts so many time steps.
+    /// What is to be said of a contact that lasts this many time steps.
     pub(crate) fn of_steps_in_contact(steps: f64) -> Option<Self> {
         (steps < FEWEST_STEPS_IN_CONTACT).then_some(Self::ShortContact { steps })
     }

@@ -160,7 +160,7 @@ impl<'a> Search<'a> {
         if purpose == Purpose::Sweep {
             for unread in self.archive.records.look()? {
                 let path = unread.path.display();
-                self.progress.told(&format!("{path}: {}", unread.reason));
+                self.progress.notice(&format!("{path}: {}", unread.reason));
             }
         }
         let then = match self.checkpoint_every {
@@ -178,13 +178,13 @@ impl<'a> Search<'a> {
                         && !self.told_of_builds.swap(true, Ordering::Relaxed)
                     {
                         let shown = "it and those like it are shown as they are";
-                        self.progress.told(&format!("{refusal}; {shown}"));
+                        self.progress.notice(&format!("{refusal}; {shown}"));
                     }
                     records.push(*record);
                 }
                 Kept::Absent | Kept::OfAnotherBuild { .. } | Kept::Unusable { .. } => {
                     if let Some(refusal) = refusal {
-                        self.progress.told(&format!("{refusal}; {then}"));
+                        self.progress.notice(&format!("{refusal}; {then}"));
                     }
                     lacking.push(case.clone());
                 }
@@ -204,7 +204,7 @@ impl<'a> Search<'a> {
         self.archive.store.is_none() || self.setup.plan().is_small()
     }
 
-    /// Solves these cases in parallel, the dearest first: each thread takes the next from a common counter, so that the
+    /// Solves these cases in parallel, the most expensive first: each thread takes the next from a common counter, so that the
     /// uneven cases end together.
     fn compute(
         &self,

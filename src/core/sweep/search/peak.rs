@@ -75,7 +75,7 @@ const ROUNDS: usize = 6;
 
 /// Width of a bracket, in decades, from which its losses may have several humps.
 const WIDEST: f64 = 1.0;
-/// Cases per decade that find them: a relaxation is as wide as a decade at half its height, and no closer ones are told apart.
+/// Cases per decade that find them: a relaxation is as wide as a decade at half its height, and no closer ones are distinguished.
 const PER_DECADE: f64 = 3.0;
 
 /// Triples of neighbours whose middle has the larger loss: each brackets a peak. The ends of a sweep are no peaks.

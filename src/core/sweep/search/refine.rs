@@ -1,6 +1,6 @@
 //! Extra frequencies where the samples do not resolve the curve of the loss.
 //!
-//! Every inner point of the curve is foretold from its neighbours, by the cubic through the two on either side, in the
+//! Every inner point of the curve is predicted from its neighbours, by the cubic through the two on either side, in the
 //! logarithms of frequency and loss. Where the computed value differs, the curve has a detail that the samples around it
 //! only just show, and the two intervals beside the point are halved.
 
@@ -11,7 +11,7 @@ use crate::sweep::search::peak::Point;
 /// and below what a reader sees in a figure.
 const TOLERANCE: f64 = 5e-3;
 
-/// How much larger the error of a point foretold without itself is than that of the curve between points: the ratio of
+/// How much larger the error of a point predicted without itself is than that of the curve between points: the ratio of
 /// h h 2h 2h to (h/2)(h/2)(3h/2)(3h/2), the products in the error of the cubic.
 const WITHOUT_ITSELF: f64 = 64.0 / 9.0;
 

@@ -1,4 +1,4 @@
-//! The sweep itself: cases in parallel, the dearest first, each on disk before its thread takes the next; then the peaks.
+//! The sweep itself: cases in parallel, the most expensive first, each on disk before its thread takes the next; then the peaks.
 //!
 //! The archive, most often a folder, is the memory of a sweep. A case whose record is there is not solved again, be it from an earlier run,
 //! a shard, or a merged part: the outcome is the same, bit for bit.
@@ -47,12 +47,12 @@ pub trait Progress: Sync {
     fn locating_peaks(&self, _brackets: usize) {}
     /// What there is has been read; what is solved from now on would be lost if nobody waited for it.
     fn solving(&self) {}
-    /// So many of the cases to do have records already.
+    /// This many of the cases to do have records already.
     fn cases_found(&self, _done: usize, _of: usize) {}
-    /// Refinement adds so many cases to those planned, of which `found` have records already.
+    /// Refinement adds this many cases to those planned, of which `found` have records already.
     fn cases_added(&self, _added: usize, _found: usize) {}
     /// Something a user should know, such as a record that is damaged and computed again.
-    fn told(&self, _what: &str) {}
+    fn notice(&self, _what: &str) {}
 }
 
 /// Hears of nothing.
@@ -67,7 +67,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// On so many threads, all else as usual.
+    /// On this many threads, all else as usual.
     pub fn on_threads(threads: usize) -> Self {
         Self {
             threads,

@@ -9,7 +9,7 @@ use crate::sweep::case::{Setup, SetupError};
 use crate::sweep::plan::{Case, Method, SweepPlan};
 use crate::sweep::share::trial::{self, Trial};
 
-/// What a sweep costs, foretold from some of its cases. On cells, where fewer of them are tried than asked for, the time is good to a
+/// What a sweep costs, predicted from some of its cases. On cells, where fewer of them are tried than asked for, the time is good to a
 /// factor of two or so.
 #[derive(Debug, Clone)]
 pub struct Cost {
@@ -52,7 +52,7 @@ const STEP_BYTES: u64 = 100;
 const DRAWING_BYTES: u64 = 18_000_000;
 /// Cases of a large sweep that have tables of their cycles.
 const TABLES_OF_LARGE: usize = 6;
-/// Cells of the grid on which steps are taken, at most: larger ones are foretold from it.
+/// Cells of the grid on which steps are taken, at most: larger ones are predicted from it.
 const CELLS_MEASURED: usize = 128;
 /// Steps are taken for this long, but no fewer than some.
 const MEASURED: Duration = Duration::from_millis(200);
@@ -61,21 +61,21 @@ const FEWEST_STEPS: u32 = 4;
 const SHARD_S: f64 = 600.0;
 
 impl Cost {
-    /// Measures and foretells.
+    /// Measures and predicts.
     ///
     /// # Errors
     /// [`SetupError`] where no engine can be made. Where no step can be taken, the measured time is that of the attempt.
     pub fn of(setup: &Setup) -> Result<Self, SetupError> {
         let at_accuracy = trial::at_accuracy(setup)?;
         let setup = at_accuracy.as_ref().unwrap_or(setup);
-        let (step_s, foretold_s) = foretold(setup)?;
-        let trial = Trial::of(setup, &foretold_s)?;
+        let (step_s, predicted_s) = predicted(setup)?;
+        let trial = Trial::of(setup, &predicted_s)?;
         let plan = setup.plan();
-        let cases = plan.cases().into_iter().zip(&foretold_s);
+        let cases = plan.cases().into_iter().zip(&predicted_s);
         let cases: Vec<CaseCost> = cases
-            .map(|(case, foretold_s)| CaseCost {
+            .map(|(case, predicted_s)| CaseCost {
                 cycles: setup.predicted_cycles(&case),
-                time_s: foretold_s * trial.factor,
+                time_s: predicted_s * trial.factor,
                 case,
             })
             .collect();
@@ -153,8 +153,8 @@ impl Setup {
     }
 }
 
-/// Time (s) of a step, and of every case as steps alone foretell it.
-pub(super) fn foretold(setup: &Setup) -> Result<(f64, Vec<f64>), SetupError> {
+/// Time (s) of a step, and of every case as steps alone predict it.
+pub(super) fn predicted(setup: &Setup) -> Result<(f64, Vec<f64>), SetupError> {
     let plan = setup.plan();
     let step_s = step_s(setup)?;
     let time_s = |case: &Case| {
@@ -204,7 +204,7 @@ fn levels(plan: &SweepPlan, cycles: f64) -> Vec<Level> {
     ]
 }
 
-/// Time of a step on so many nodes, relative to one on the full number.
+/// Time of a step on this many nodes, relative to one on the full number.
 fn relative_step(plan: &SweepPlan, nodes: usize) -> f64 {
     let ratio = nodes as f64 / plan.solver.nodes() as f64;
     match plan.solver.engine {
@@ -258,7 +258,7 @@ impl Setup {
     }
 
     /// Memory (bytes) that a case under way takes: engine and march, what the search for the stabilised cycle looks back on, where
-    /// it was in contact at which step, and what is told of its surface. Within 20 % of what was counted, for a contact that stays
+    /// it was in contact at which step, and what is reported of its surface. Within 20 % of what was counted, for a contact that stays
     /// inside its domain.
     pub fn predicted_case_bytes(&self) -> u64 {
         let conditions = self.plan().conditions();

@@ -76,7 +76,7 @@ pub fn cases(setup: &Setup, shard: Shard) -> Vec<Case> {
     pairs.filter(mine).map(|(case, _)| case).collect()
 }
 
-/// The part of each case: the dearest first, always to the part that has least to do.
+/// The part of each case: the most expensive first, always to the part that has least to do.
 fn split(costs: &[u64], parts: usize) -> Vec<usize> {
     let mut order: Vec<usize> = (0..costs.len()).collect();
     order.sort_by_key(|&case| (std::cmp::Reverse(costs[case]), case));
@@ -120,7 +120,7 @@ mod tests {
             let used = parts.min(costs.len());
             let loads: Vec<u64> = (0..used).map(load).collect();
             let (most, least) = (loads.iter().max().unwrap(), loads.iter().min().unwrap());
-            // Giving the dearest first to the least loaded leaves no more than one case between two parts.
+            // Giving the most expensive first to the least loaded leaves no more than one case between two parts.
             assert!(most - least <= 37, "{loads:?}");
         }
     }

@@ -1,4 +1,4 @@
-//! Some cases of a sweep solved as a trial, so that what the sweep costs is foretold from what cases cost.
+//! Some cases of a sweep solved as a trial, so that what the sweep costs is predicted from what cases cost.
 
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
@@ -14,7 +14,7 @@ use crate::sweep::store::entry;
 const LONGEST: Duration = Duration::from_millis(1500);
 /// Cases that are tried, evenly spread over the sweep.
 const CASES: usize = 25;
-/// A case that is foretold to take longer (s) is tried on fewer cells.
+/// A case that is predicted to take longer (s) is tried on fewer cells.
 const LONG_S: f64 = 0.4;
 /// Cells on which it is then tried.
 const FEW_CELLS: usize = 32;
@@ -24,7 +24,7 @@ const LOSSES_OF_A_PEAK: f64 = 10.0;
 /// What the trials showed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Trial {
-    /// Time of the tried cases relative to what was foretold from steps alone.
+    /// Time of the tried cases relative to what was predicted from steps alone.
     pub factor: f64,
     /// Time of one loss to locate a peak relative to that of a case.
     pub loss: f64,
@@ -44,10 +44,10 @@ impl Trial {
     ///
     /// # Errors
     /// As [`Setup::new`].
-    pub fn of(setup: &Setup, foretold_s: &[f64]) -> Result<Self, SetupError> {
-        let longest_s = foretold_s.iter().copied().fold(0.0, f64::max);
+    pub fn of(setup: &Setup, predicted_s: &[f64]) -> Result<Self, SetupError> {
+        let longest_s = predicted_s.iter().copied().fold(0.0, f64::max);
         if longest_s <= LONG_S {
-            return Ok(Self::run(setup, foretold_s));
+            return Ok(Self::run(setup, predicted_s));
         }
         let plan = setup.plan();
         let has_fewer = plan.solver.engine == EngineKind::HalfSpace
@@ -59,11 +59,11 @@ impl Trial {
         let mut fewer = plan.clone();
         fewer.solver.cells = FEW_CELLS;
         let fewer = Setup::new(fewer)?;
-        let foretold_s = cost::foretold(&fewer)?.1;
-        Ok(Self::run(&fewer, &foretold_s))
+        let predicted_s = cost::predicted(&fewer)?.1;
+        Ok(Self::run(&fewer, &predicted_s))
     }
 
-    fn run(setup: &Setup, foretold_s: &[f64]) -> Self {
+    fn run(setup: &Setup, predicted_s: &[f64]) -> Self {
         let cases = setup.plan().cases();
         let interrupt = AtomicBool::new(false);
         let begun = Instant::now();
@@ -75,7 +75,7 @@ impl Trial {
                 1 => 0,
                 most => k * (cases.len() - 1) / (most - 1),
             };
-            let (Some(case), Some(foretold_s)) = (cases.get(place), foretold_s.get(place)) else {
+            let (Some(case), Some(predicted_s)) = (cases.get(place), predicted_s.get(place)) else {
                 break;
             };
             let clock = Instant::now();
@@ -83,7 +83,7 @@ impl Trial {
                 break;
             };
             taken_s += clock.elapsed().as_secs_f64();
-            expected_s += foretold_s;
+            expected_s += predicted_s;
             if let Ok(encoded) = entry::encoded(&record, true) {
                 trial.record_bytes = encoded.len() as u64;
             }

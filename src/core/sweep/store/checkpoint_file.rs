@@ -25,7 +25,7 @@ pub(crate) const FOLDER: &str = "checkpoints";
 /// What has run for less than this is sooner computed again than read.
 const WORTH_KEEPING: Duration = Duration::from_secs(1);
 
-/// Writing takes at most one part in so many of the time, unless every moment is to be kept.
+/// One over the part of the time that writing takes at most, unless every moment is to be kept.
 const SHARE: u32 = 20;
 
 const MARK: &[u8; 8] = b"CDMACHK\x02";

@@ -80,7 +80,7 @@ impl Kind {
         }
     }
 
-    /// Sweeps and scenarios are told apart by their plans.
+    /// Sweeps and scenarios are distinguished by their plans.
     pub(super) fn shares_a_folder_with(self, other: Self) -> bool {
         let has_plan = |kind| matches!(kind, Self::Sweep | Self::Scenario);
         self == other || has_plan(self) && has_plan(other)

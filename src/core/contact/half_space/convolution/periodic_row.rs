@@ -22,7 +22,7 @@ impl PeriodicRow {
         Self::of_period(2 * fast_row_half(cells))
     }
 
-    /// Plans for rows that repeat after so many values.
+    /// Plans for rows that repeat after this many values.
     pub(super) fn of_period(period: usize) -> Self {
         let mut planner = RealFftPlanner::new();
         Self {

@@ -9,7 +9,7 @@
 use super::super::grid::Grid;
 use super::frame::Frame;
 
-/// Cells that a row of them in contact must have for its ends to be told apart from its middle.
+/// Cells that a row of them in contact must have for its ends to be distinguished from its middle.
 const FEWEST_CELLS: usize = 4;
 
 /// The area under pressure, in cells of the grid (on a mirrored one, of the quarter). `pressure` is that in the window `frame`,

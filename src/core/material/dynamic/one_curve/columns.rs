@@ -23,7 +23,7 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    /// Columns of the equilibrium modulus and of so many times, those of the grid from the first on.
+    /// Columns of the equilibrium modulus and of this many times, those of the grid from the first on.
     pub(super) fn new(
         first_time: i64,
         times: usize,

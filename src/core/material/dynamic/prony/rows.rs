@@ -227,12 +227,12 @@ impl Rows {
         }
     }
 
-    /// Times evenly spaced in their logarithm, so many per decade, the limits among them.
+    /// Times evenly spaced in their logarithm, this many per decade, the limits among them.
     pub(super) fn grid((shortest, longest): (f64, f64), per_decade: f64) -> Vec<f64> {
         grid::logarithmic(shortest, longest, per_decade, MOST_TIMES)
     }
 
-    /// A first guess of a series of so many branches, evenly spaced: each has the loss modulus next to one over its time.
+    /// A first guess of a series of this many branches, evenly spaced: each has the loss modulus next to one over its time.
     pub(super) fn guess(&self, branches: usize, limits_s: (f64, f64), constant: f64) -> Series {
         let loss = |time_s: f64| {
             let distance = |omega: f64| (omega * time_s).ln().abs();
