@@ -5,22 +5,19 @@
 //! reference temperature, C1, C2); Abaqus Analysis User's Guide, "Time domain viscoelasticity": `g(t) = 1 - sum g_i (1 -
 //! exp(-t/tau_i))`, the ratios being those to the instantaneous modulus. A number has at most 20 characters.
 
-use super::number::Printed;
-use super::{Draft, ExportError, Series};
+use super::{Export, ExportError, Ratios, Series};
 
-pub(super) fn draft(series: &Series<'_>) -> Result<Draft, ExportError> {
-    let young = Printed::free(series.longitudinal.instantaneous_modulus());
-    let ratios = series.ratios();
-    let written = Series::of_ratios(&young, &ratios)?;
+pub(super) fn export(series: &Series<'_>) -> Result<Export, ExportError> {
+    let Ratios { young, pairs, made } = series.ratios()?;
     let mut text = format!(
         "*MATERIAL, NAME={}\n*ELASTIC, MODULI=INSTANTANEOUS\n{young}, {:?}\n",
         series.label(),
         series.nu
     );
-    if !ratios.is_empty() {
+    if !pairs.is_empty() {
         text.push_str("*VISCOELASTIC, TIME=PRONY\n");
     }
-    for (ratio, time) in &ratios {
+    for [ratio, time] in &pairs {
         text.push_str(&format!("{ratio}, {ratio}, {time}\n"));
     }
     let mut remarks = vec![
@@ -33,14 +30,9 @@ pub(super) fn draft(series: &Series<'_>) -> Result<Draft, ExportError> {
                 .to_owned(),
         );
     }
-    if let (Some([reference, c1, c2]), false) = (series.wlf(), ratios.is_empty()) {
-        text.push_str(&format!("*TRS, DEFINITION=WLF\n{reference}, {c1}, {c2}\n"));
+    if let (Some(wlf), false) = (series.wlf(), pairs.is_empty()) {
+        text.push_str(&format!("*TRS, DEFINITION=WLF\n{}\n", wlf.join(", ")));
         remarks.push("Temperatures of the model must be in K, as that of *TRS.".to_owned());
     }
-    Ok(Draft {
-        text,
-        written,
-        remarks,
-        comment: Some("**"),
-    })
+    Ok(series.export(&text, &made, remarks))
 }

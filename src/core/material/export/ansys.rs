@@ -6,33 +6,25 @@
 //! Tr)/(C2 + T - Tr)` and time is multiplied by A, the reciprocal of a_T: so C1 and C2 are those of WLF as they stand. S. Imaoka,
 //! "Viscoelasticity", memo STI0807B (ANSYS 11.0, 2008), has examples.
 
-use super::number::Printed;
-use super::{Draft, ExportError, Series};
+use super::{Export, ExportError, Ratios, Series};
 
 const MOST_PAIRS: usize = 100;
 /// Two constants each, of the six that one `TBDATA` takes.
 const PAIRS_PER_COMMAND: usize = 3;
 
-pub(super) fn draft(series: &Series<'_>) -> Result<Draft, ExportError> {
-    series
-        .finite_bulk("EX and PRXY of an incompressible material make an infinite bulk modulus")?;
-    let young = Printed::free(series.longitudinal.instantaneous_modulus());
-    let ratios = series.ratios();
-    series.at_most(MOST_PAIRS, ratios.len())?;
-    let written = Series::of_ratios(&young, &ratios)?;
+pub(super) fn export(series: &Series<'_>) -> Result<Export, ExportError> {
+    series.bulk_over_shear(
+        "EX and PRXY of an incompressible material make an infinite bulk modulus",
+    )?;
+    let Ratios { young, pairs, made } = series.ratios()?;
+    series.at_most(MOST_PAIRS, pairs.len())?;
     let mut text = format!("MP,EX,1,{young}\nMP,PRXY,1,{:?}\n", series.nu);
-    let kinds: &[&str] = if ratios.is_empty() {
-        &[]
-    } else {
-        &["SHEAR", "BULK"]
-    };
-    for kind in kinds {
-        let pairs = ratios.len();
-        text.push_str(&format!("TB,PRONY,1,1,{pairs},{kind}\n"));
-        for (command, pairs) in ratios.chunks(PAIRS_PER_COMMAND).enumerate() {
+    let kinds = ["SHEAR", "BULK"].into_iter();
+    for kind in kinds.filter(|_| !pairs.is_empty()) {
+        text.push_str(&format!("TB,PRONY,1,1,{},{kind}\n", pairs.len()));
+        for (command, pairs) in pairs.chunks(PAIRS_PER_COMMAND).enumerate() {
             let first = 2 * PAIRS_PER_COMMAND * command + 1;
-            let values = pairs.iter().map(|(ratio, time)| format!(",{ratio},{time}"));
-            text.push_str(&format!("TBDATA,{first}{}\n", values.collect::<String>()));
+            text.push_str(&format!("TBDATA,{first},{}\n", pairs.concat().join(",")));
         }
     }
     let mut remarks = vec![
@@ -40,16 +32,9 @@ pub(super) fn draft(series: &Series<'_>) -> Result<Draft, ExportError> {
          the material has the number 1."
             .to_owned(),
     ];
-    if let (Some([reference, c1, c2]), false) = (series.wlf(), ratios.is_empty()) {
-        text.push_str(&format!(
-            "TB,SHIFT,1,1,3,WLF\nTBDATA,1,{reference},{c1},{c2}\n"
-        ));
+    if let (Some(wlf), false) = (series.wlf(), pairs.is_empty()) {
+        text.push_str(&format!("TB,SHIFT,1,1,3,WLF\nTBDATA,1,{}\n", wlf.join(",")));
         remarks.push("Temperatures of the model must be in K, as that of TB,SHIFT.".to_owned());
     }
-    Ok(Draft {
-        text,
-        written,
-        remarks,
-        comment: Some("!"),
-    })
+    Ok(series.export(&text, &made, remarks))
 }

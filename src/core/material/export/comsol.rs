@@ -5,28 +5,30 @@
 //! of the parent node, whose stiffness is the equilibrium (long-term) one ("Linear Viscoelasticity" of the theory chapter). Shift function
 //! Williams-Landel-Ferry: Tref, C1WLF, C2WLF.
 
-use super::number::Printed;
-use super::{Draft, ExportError, Relaxation, RelaxationBranch, Series};
+use super::number::{digits, rounded};
+use super::{Export, ExportError, Relaxation, RelaxationBranch, Series};
 
-pub(super) fn draft(series: &Series<'_>) -> Result<Draft, ExportError> {
+pub(super) fn export(series: &Series<'_>) -> Result<Export, ExportError> {
     if series.own.is_fluid() {
         let program = series.program.title();
         return Err(ExportError::Fluid { program });
     }
-    let young = Printed::free(series.longitudinal.equilibrium_modulus());
     let nu = series.nu;
-    let longitudinal_over_shear = 2.0 * (1.0 + nu);
+    let equilibrium_pa = rounded(series.longitudinal.equilibrium_modulus());
+    let young = digits(equilibrium_pa);
     let mut text = String::new();
-    let mut written = Vec::new();
+    let mut branches = Vec::new();
     for (index, branch) in series.shear.branches().iter().enumerate() {
-        let (shear, time) = (
-            Printed::free(branch.modulus_pa),
-            Printed::free(branch.time_s),
-        );
-        text.push_str(&format!("{} {shear} {time}\n", index + 1));
-        written.push(RelaxationBranch {
-            modulus_pa: shear.value * longitudinal_over_shear,
-            time_s: time.value,
+        let (shear_pa, time_s) = (rounded(branch.modulus_pa), rounded(branch.time_s));
+        let number = index + 1;
+        text.push_str(&format!(
+            "{number} {} {}\n",
+            digits(shear_pa),
+            digits(time_s)
+        ));
+        branches.push(RelaxationBranch {
+            modulus_pa: shear_pa * (2.0 * (1.0 + nu)),
+            time_s,
         });
     }
     let mut remarks = vec![
@@ -47,10 +49,6 @@ pub(super) fn draft(series: &Series<'_>) -> Result<Draft, ExportError> {
             "Shift function Williams-Landel-Ferry: Tref = {reference} K, C1WLF = {c1}, C2WLF = {c2} K."
         ));
     }
-    Ok(Draft {
-        text,
-        written: Relaxation::new(young.value, written)?,
-        remarks,
-        comment: Some("%"),
-    })
+    let made = Relaxation::new(equilibrium_pa, branches)?;
+    Ok(series.export(&text, &made, remarks))
 }

@@ -1,9 +1,9 @@
 //! CSV: columns `modulus_pa`, `time_s`, the equilibrium modulus first, with an empty time. Moduli are of the material's own kind, and every
 //! digit is kept.
 
-use super::{Draft, Series};
+use super::{Export, ExportError, Series};
 
-pub(super) fn draft(series: &Series<'_>) -> Draft {
+pub(super) fn export(series: &Series<'_>) -> Result<Export, ExportError> {
     let mut text = format!(
         "modulus_pa,time_s\n{:?},\n",
         series.own.equilibrium_modulus()
@@ -11,14 +11,10 @@ pub(super) fn draft(series: &Series<'_>) -> Draft {
     for branch in series.own.branches() {
         text.push_str(&format!("{:?},{:?}\n", branch.modulus_pa, branch.time_s));
     }
-    Draft {
-        text,
-        // The shortest text that reads as the same double.
-        written: series.longitudinal.clone(),
-        remarks: vec![format!(
-            "Poisson ratio {:?}, which the table does not hold.",
-            series.nu
-        )],
-        comment: None,
-    }
+    let remark = format!(
+        "Poisson ratio {:?}, which the table does not hold.",
+        series.nu
+    );
+    // The shortest text that reads as the same double.
+    Ok(series.export(&text, &series.longitudinal, vec![remark]))
 }

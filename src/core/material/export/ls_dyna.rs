@@ -9,21 +9,20 @@
 //! left out, and the constants stand in a comment. The density is not known to a material of contact mechanics: the field refers to a
 //! parameter, which a model without `*PARAMETER` does not run with.
 
-use super::number::Printed;
-use super::{Draft, ExportError, Relaxation, RelaxationBranch, Series};
+use super::number::{ten_columns, value};
+use super::{Export, ExportError, Relaxation, RelaxationBranch, Series};
 
 const MOST_TERMS: usize = 18;
 
-pub(super) fn draft(series: &Series<'_>) -> Result<Draft, ExportError> {
-    let bulk_over_shear = series.finite_bulk("its bulk moduli K_i must be finite")?;
-    let equilibrium = series.shear.equilibrium_modulus();
+pub(super) fn export(series: &Series<'_>) -> Result<Export, ExportError> {
+    let bulk_over_shear = series.bulk_over_shear("its bulk moduli K_i must be finite")?;
     // (modulus, decay constant), slowest first.
-    let at_rest = (equilibrium > 0.0).then_some((equilibrium, 0.0));
+    let mut terms = vec![(series.shear.equilibrium_modulus(), 0.0)];
+    terms.retain(|(modulus, _)| *modulus > 0.0);
     let branches = series.shear.branches().iter().rev();
-    let branches = branches.map(|branch| (branch.modulus_pa, branch.time_s.recip()));
-    let terms: Vec<(f64, f64)> = at_rest.into_iter().chain(branches).collect();
+    terms.extend(branches.map(|branch| (branch.modulus_pa, branch.time_s.recip())));
     series.at_most(MOST_TERMS, terms.len())?;
-    let bulk = Printed::ten_columns(series.shear.instantaneous_modulus() * bulk_over_shear);
+    let bulk = ten_columns(series.shear.instantaneous_modulus() * bulk_over_shear);
     let mut text = format!("*MAT_GENERAL_VISCOELASTIC_TITLE\n{:.80}\n", series.title());
     text.push_str(
         "$#     mid        ro      bulk       pcf        ef      tref         a         b\n",
@@ -34,23 +33,19 @@ pub(super) fn draft(series: &Series<'_>) -> Result<Draft, ExportError> {
     );
     text.push_str("$#      gi     betai        ki    betaki\n");
     let mut equilibrium_pa = 0.0;
-    let mut written = Vec::new();
+    let mut branches = Vec::new();
     for (shear, decay) in terms {
-        let (gi, ki) = (
-            Printed::ten_columns(shear),
-            Printed::ten_columns(shear * bulk_over_shear),
-        );
-        let beta = Printed::ten_columns(decay);
+        let terms = [shear, decay, shear * bulk_over_shear].map(ten_columns);
+        let [gi, beta, ki] = &terms;
         text.push_str(&format!("{gi:>10}{beta:>10}{ki:>10}{beta:>10}\n"));
-        // Young's modulus of the two moduli as printed: 9 K G / (3 K + G).
-        let young = 9.0 * ki.value * gi.value / (3.0 * ki.value + gi.value);
-        if decay == 0.0 {
-            equilibrium_pa = young;
-        } else {
-            written.push(RelaxationBranch {
+        let [shear, decay, bulk] = terms.map(|term| value(&term));
+        let young = 9.0 * bulk * shear / (3.0 * bulk + shear);
+        match decay == 0.0 {
+            true => equilibrium_pa = young,
+            false => branches.push(RelaxationBranch {
                 modulus_pa: young,
-                time_s: beta.value.recip(),
-            });
+                time_s: decay.recip(),
+            }),
         }
     }
     let mut remarks = vec![
@@ -65,10 +60,6 @@ pub(super) fn draft(series: &Series<'_>) -> Result<Draft, ExportError> {
                 .to_owned(),
         );
     }
-    Ok(Draft {
-        text,
-        written: Relaxation::new(equilibrium_pa, written)?,
-        remarks,
-        comment: Some("$"),
-    })
+    let made = Relaxation::new(equilibrium_pa, branches)?;
+    Ok(series.export(&text, &made, remarks))
 }

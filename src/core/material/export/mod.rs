@@ -4,7 +4,8 @@
 //! its shear modulus does. Programs take the two apart; each file of this folder says how its program is given both, and from
 //! which document that is taken. All values are SI: Pa, s, K.
 //!
-//! What is written is read back from the digits that were printed, and the largest relative difference of `E*` is reported.
+//! Numbers are rounded to thirteen digits, or to what a column holds, and the largest relative difference of `E*` that this makes is
+//! reported.
 
 mod abaqus;
 mod ansys;
@@ -13,11 +14,10 @@ mod csv;
 mod ls_dyna;
 mod number;
 
-use num_complex::Complex;
-
 use super::dynamic::shift_law::Wlf;
 use super::{Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch};
-use number::Printed;
+use crate::numerics::grid;
+use number::{digits, rounded, rounded_down};
 
 /// A program that takes a material.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -40,25 +40,25 @@ impl Program {
         Program::Csv,
     ];
 
-    /// The name as it is asked for, and as its vendor writes it.
-    fn names(self) -> (&'static str, &'static str) {
+    /// The name as it is asked for, as its vendor writes it, and what begins a comment; CSV has none.
+    fn words(self) -> [&'static str; 3] {
         match self {
-            Self::Abaqus => ("abaqus", "Abaqus"),
-            Self::Ansys => ("ansys", "ANSYS"),
-            Self::LsDyna => ("ls-dyna", "LS-DYNA"),
-            Self::Comsol => ("comsol", "COMSOL"),
-            Self::Csv => ("csv", "CSV"),
+            Self::Abaqus => ["abaqus", "Abaqus", "**"],
+            Self::Ansys => ["ansys", "ANSYS", "!"],
+            Self::LsDyna => ["ls-dyna", "LS-DYNA", "$"],
+            Self::Comsol => ["comsol", "COMSOL", "%"],
+            Self::Csv => ["csv", "CSV", ""],
         }
     }
 
     /// The name as it is asked for.
     pub fn name(self) -> &'static str {
-        self.names().0
+        self.words()[0]
     }
 
     /// The name as its vendor writes it.
     pub fn title(self) -> &'static str {
-        self.names().1
+        self.words()[1]
     }
 }
 
@@ -125,48 +125,23 @@ pub fn export(
     program: Program,
 ) -> Result<Export, ExportError> {
     let series = Series::new(material, shift, program)?;
-    let draft = match program {
-        Program::Abaqus => abaqus::draft(&series)?,
-        Program::Ansys => ansys::draft(&series)?,
-        Program::LsDyna => ls_dyna::draft(&series)?,
-        Program::Comsol => comsol::draft(&series)?,
-        Program::Csv => csv::draft(&series),
-    };
-    let band_rad_per_s = band(&series.longitudinal);
-    let conversion_error = largest_difference(&draft.written, &series.longitudinal, band_rad_per_s);
-    let (low, high) = band_rad_per_s;
-    let mut remarks = series.remarks();
-    remarks.extend(draft.remarks);
-    remarks.push(match conversion_error == 0.0 {
-        true => "Error of the conversion: none; the digits below are the material's own.".to_owned(),
-        false => format!(
-            "Error of the conversion: E* of the digits below is within {conversion_error:.1e} of the material's from {low:.3e} to \
-             {high:.3e} rad/s."
-        ),
-    });
-    let comments = draft.comment.map_or_else(String::new, |mark| {
-        let lines = remarks
-            .iter()
-            .flat_map(|remark| wrapped(&ascii(remark), 90));
-        lines.map(|line| format!("{mark} {line}\n")).collect()
-    });
-    Ok(Export {
-        text: comments + &draft.text,
-        remarks,
-        conversion_error,
-        band_rad_per_s,
-    })
+    match program {
+        Program::Abaqus => abaqus::export(&series),
+        Program::Ansys => ansys::export(&series),
+        Program::LsDyna => ls_dyna::export(&series),
+        Program::Comsol => comsol::export(&series),
+        Program::Csv => csv::export(&series),
+    }
 }
 
-/// What a program's file makes of a series.
-struct Draft {
-    /// Without comments.
-    text: String,
-    /// The series as the printed digits give it to the program, longitudinal.
-    written: Relaxation,
-    remarks: Vec<String>,
-    /// What begins a comment line, where there are comments.
-    comment: Option<&'static str>,
+/// A series as programs take it that divide by the instantaneous modulus.
+struct Ratios {
+    /// Digits of the instantaneous Young's modulus.
+    young: String,
+    /// Digits of the ratio and the time of every branch.
+    pairs: Vec<[String; 2]>,
+    /// The series of these digits, longitudinal.
+    made: Relaxation,
 }
 
 /// A material as every program takes it.
@@ -211,9 +186,9 @@ impl<'a> Series<'a> {
     }
 
     /// Reference temperature (K), C1 and C2 (K) of the shift as they are printed.
-    fn wlf(&self) -> Option<[Printed; 3]> {
+    fn wlf(&self) -> Option<[String; 3]> {
         let wlf = self.shift?;
-        Some([wlf.reference_temperature_k, wlf.c1, wlf.c2_k].map(Printed::free))
+        Some([wlf.reference_temperature_k, wlf.c1, wlf.c2_k].map(|number| digits(rounded(number))))
     }
 
     fn title(&self) -> String {
@@ -230,18 +205,13 @@ impl<'a> Series<'a> {
         }
     }
 
-    /// `K_i / G_i`, the same for all terms; `None` for an incompressible material.
-    fn bulk_over_shear(&self) -> Option<f64> {
-        let nu = self.nu;
-        (nu < 0.5).then(|| 2.0 * (1.0 + nu) / (3.0 * (1.0 - 2.0 * nu)))
-    }
-
-    /// Refuses where there is no finite bulk modulus.
-    fn finite_bulk(&self, because: &'static str) -> Result<f64, ExportError> {
-        self.bulk_over_shear().ok_or(ExportError::Incompressible {
-            program: self.program.title(),
-            because,
-        })
+    /// `K_i / G_i`, the same for all terms; refused where there is no finite bulk modulus.
+    fn bulk_over_shear(&self, because: &'static str) -> Result<f64, ExportError> {
+        let (nu, program) = (self.nu, self.program.title());
+        match self.is_incompressible() {
+            true => Err(ExportError::Incompressible { program, because }),
+            false => Ok(2.0 * (1.0 + nu) / (3.0 * (1.0 - 2.0 * nu))),
+        }
     }
 
     fn at_most(&self, most: usize, found: usize) -> Result<(), ExportError> {
@@ -253,6 +223,39 @@ impl<'a> Series<'a> {
                 found,
             }),
             false => Ok(()),
+        }
+    }
+
+    /// A text without comments, of whose digits the program makes this longitudinal series, with what there is to say of it.
+    fn export(&self, text: &str, made: &Relaxation, remarks: Vec<String>) -> Export {
+        let band_rad_per_s = band(&self.longitudinal);
+        let conversion_error = largest_difference(made, &self.longitudinal, band_rad_per_s);
+        let (low, high) = band_rad_per_s;
+        let remarks = self.remarks().into_iter().chain(remarks);
+        let accuracy = match conversion_error == 0.0 {
+            true => {
+                "Error of the conversion: none; the digits below are the material's own.".to_owned()
+            }
+            false => format!(
+                "Error of the conversion: E* of the digits below is within {conversion_error:.1e} of the material's from {low:.3e} to \
+                 {high:.3e} rad/s."
+            ),
+        };
+        let remarks: Vec<String> = remarks.chain([accuracy]).collect();
+        let comments = match self.program.words() {
+            [.., ""] => String::new(),
+            [.., mark] => {
+                let lines = remarks
+                    .iter()
+                    .flat_map(|remark| wrapped(&ascii(remark), 90));
+                lines.map(|line| format!("{mark} {line}\n")).collect()
+            }
+        };
+        Export {
+            text: comments + text,
+            remarks,
+            conversion_error,
+            band_rad_per_s,
         }
     }
 
@@ -283,34 +286,32 @@ impl<'a> Series<'a> {
         remarks
     }
 
-    /// Moduli divided by the instantaneous one and rounded down, so that they never add up to more than one, with the times.
-    fn ratios(&self) -> Vec<(Printed, Printed)> {
+    /// Moduli over the instantaneous one, rounded down so that they never add up to more than one.
+    fn ratios(&self) -> Result<Ratios, MaterialError> {
         let instantaneous = self.own.instantaneous_modulus();
-        let branches = self.own.branches().iter();
-        // Beside an equilibrium modulus the last bits do not matter.
-        let round = match self.own.equilibrium_modulus() > 1e-9 * instantaneous {
-            true => Printed::free_downwards_but_for_rounding,
-            false => Printed::free_downwards,
+        // Beside an equilibrium modulus the rounding of a quotient does not matter: what was written as 0.2912 stays that.
+        let rounding = match self.own.equilibrium_modulus() > 1e-9 * instantaneous {
+            true => 4.0 * f64::EPSILON,
+            false => 0.0,
         };
-        let ratio = |b: &RelaxationBranch| round(b.modulus_pa / instantaneous);
-        branches
-            .map(|b| (ratio(b), Printed::free(b.time_s)))
-            .collect()
-    }
-
-    /// The longitudinal series of an instantaneous modulus and ratios to it.
-    fn of_ratios(
-        instantaneous: &Printed,
-        ratios: &[(Printed, Printed)],
-    ) -> Result<Relaxation, MaterialError> {
-        let sum: f64 = ratios.iter().map(|(ratio, _)| ratio.value).sum();
-        let branches = ratios.iter().map(|(ratio, time)| RelaxationBranch {
-            modulus_pa: ratio.value * instantaneous.value,
-            time_s: time.value,
+        let ratio = |modulus_pa: f64| rounded_down(modulus_pa / instantaneous * (1.0 + rounding));
+        let branches = self.own.branches().iter();
+        let pairs: Vec<[f64; 2]> = branches
+            .map(|branch| [ratio(branch.modulus_pa), rounded(branch.time_s)])
+            .collect();
+        let young_pa = rounded(self.longitudinal.instantaneous_modulus());
+        let sum: f64 = pairs.iter().map(|[ratio, _]| ratio).sum();
+        let branches = pairs.iter().map(|&[ratio, time_s]| RelaxationBranch {
+            modulus_pa: ratio * young_pa,
+            time_s,
         });
         // Ratios of a fluid add up to one, but for the rounding of the sum.
-        let equilibrium = instantaneous.value * (1.0 - sum).max(0.0);
-        Relaxation::new(equilibrium, branches.collect())
+        let made = Relaxation::new(young_pa * (1.0 - sum).max(0.0), branches.collect())?;
+        Ok(Ratios {
+            young: digits(young_pa),
+            pairs: pairs.into_iter().map(|pair| pair.map(digits)).collect(),
+            made,
+        })
     }
 }
 
@@ -348,24 +349,20 @@ fn band(relaxation: &Relaxation) -> (f64, f64) {
 }
 
 /// Largest relative difference of the complex moduli, at twenty frequencies per decade.
-fn largest_difference(written: &Relaxation, exact: &Relaxation, (low, high): (f64, f64)) -> f64 {
-    let decades = (high / low).log10();
-    let count = (20.0 * decades).ceil().clamp(1.0, 10_000.0) as usize;
-    let omega = |k: usize| low * 10_f64.powf(decades * k as f64 / count as f64);
+fn largest_difference(made: &Relaxation, exact: &Relaxation, (low, high): (f64, f64)) -> f64 {
     let difference = |omega: f64| {
-        let exact: Complex<f64> = exact.complex_modulus(omega);
-        (written.complex_modulus(omega) - exact).norm() / exact.norm()
+        let exact = exact.complex_modulus(omega);
+        (made.complex_modulus(omega) - exact).norm() / exact.norm()
     };
-    (0..=count)
-        .map(|k| difference(omega(k)))
-        .fold(0.0, f64::max)
+    let grid = grid::logarithmic(low, high, 20.0, 10_000);
+    grid.into_iter().map(difference).fold(0.0, f64::max)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::material::classical::KelvinVoigt;
-    use crate::material::{Creep, CreepBranch};
+    use crate::material::{Creep, CreepBranch, library};
 
     fn series(equilibrium: f64, count: i32, kind: ModulusKind, nu: f64) -> Material {
         let branch = |k: i32| RelaxationBranch {
@@ -469,6 +466,17 @@ mod tests {
             let without = export(&material, None, program).unwrap().text;
             assert!(!without.contains("8.86"), "{without}");
         }
+    }
+
+    #[test]
+    fn ratios_that_a_person_wrote_stay_as_they_are() {
+        // Moduli of these shares of the instantaneous one, whose quotients are 0.07877699999999999 and 0.29119999999999996.
+        let pvb = library::find("pvb").unwrap().material().unwrap();
+        let text = export(&pvb, None, Program::Abaqus).unwrap().text;
+        assert!(
+            text.contains("\n0.078777, ") && text.contains("\n0.2912, "),
+            "{text}"
+        );
     }
 
     #[test]

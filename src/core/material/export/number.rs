@@ -1,89 +1,48 @@
-//! Numbers as they are printed, with the value that the printed digits have.
+//! Numbers rounded to what a text holds of them.
 
-use std::fmt;
-
-/// A number as text.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Printed {
-    text: String,
-    /// The value of the text.
-    pub(super) value: f64,
-}
-
-/// Significant digits where columns do not bound them. A number has 20 characters at most, as Abaqus asks.
+/// Significant digits where columns do not bound them. With an exponent a number has 20 characters at most, as Abaqus asks.
 const DIGITS: usize = 13;
 
-/// Rounding of a quotient of sums of a few numbers, relative.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
-
-impl Printed {
-    fn of(text: String, otherwise: f64) -> Self {
-        let value = text.parse().unwrap_or(otherwise);
-        Self { text, value }
-    }
-
-    /// To thirteen digits.
-    pub(super) fn free(value: f64) -> Self {
-        Self::of(scientific(value, DIGITS - 1), value)
-    }
-
-    /// The same of a positive number, rounded down.
-    pub(super) fn free_downwards(value: f64) -> Self {
-        let nearest = Self::free(value);
-        if nearest.value <= value {
-            return nearest;
-        }
-        // One unit of the last digit less.
-        let unit = 10_f64.powi(value.log10().floor() as i32 + 1 - DIGITS as i32);
-        Self::free(nearest.value - unit)
-    }
-
-    /// The same, where what lies above the number by no more than the rounding of the number itself is the number: `0.2912` of
-    /// 0.29119999999999996.
-    pub(super) fn free_downwards_but_for_rounding(value: f64) -> Self {
-        let nearest = Self::free(value);
-        match nearest.value <= value * (1.0 + ROUNDING) {
-            true => nearest,
-            false => Self::free_downwards(value),
-        }
-    }
-
-    /// To as many digits as ten columns hold.
-    pub(super) fn ten_columns(value: f64) -> Self {
-        let candidates = (0..=8).flat_map(|digits| {
-            let scientific = format!("{value:.digits$e}").replace('e', "E");
-            [format!("{value:.digits$}"), scientific]
-        });
-        let fitting = candidates.filter(|text| text.len() <= 10 && text.contains(['.', 'E']));
-        let nearest = fitting
-            .map(|text| Self::of(text, value))
-            .min_by(|a, b| (a.value - value).abs().total_cmp(&(b.value - value).abs()));
-        nearest.unwrap_or_else(|| Self::of(format!("{value:.0e}").replace('e', "E"), value))
-    }
+/// The value of digits.
+pub(super) fn value(digits: &str) -> f64 {
+    digits.parse().unwrap_or(f64::NAN)
 }
 
-impl fmt::Display for Printed {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.pad(&self.text)
-    }
+/// To thirteen digits.
+pub(super) fn rounded(number: f64) -> f64 {
+    value(&format!("{number:.*e}", DIGITS - 1))
 }
 
-/// `1.973000E+09`: two digits of exponent at least, as every Fortran program reads it. Whole numbers of a few digits, which
-/// people write, stay as short as they are, also where rounding has changed their last bits.
-fn scientific(value: f64, decimals: usize) -> String {
-    let rounded: f64 = format!("{value:.decimals$e}").parse().unwrap_or(value);
-    let is_rounding = (rounded - value).abs() <= ROUNDING * value.abs();
-    let short = format!("{:?}", if is_rounding { rounded } else { value });
+/// A positive number without the digits beyond the thirteenth.
+pub(super) fn rounded_down(number: f64) -> f64 {
+    let all = format!("{number:.16e}");
+    let (mantissa, exponent) = all.split_once('e').unwrap_or((&all, "0"));
+    // The point is a character as well.
+    value(&format!("{mantissa:.*}e{exponent}", DIGITS + 1))
+}
+
+/// The digits of a number of thirteen: those of few digits as they are, as people write them, others as `1.973000000000E+09`, with
+/// two digits of exponent at least, as every Fortran program reads it.
+pub(super) fn digits(number: f64) -> String {
+    let short = format!("{number:?}");
     if short.len() <= 9 && !short.contains('e') {
         return short;
     }
-    let text = format!("{value:.decimals$e}");
-    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-    let (sign, exponent) = match exponent.strip_prefix('-') {
-        Some(exponent) => ('-', exponent),
-        None => ('+', exponent),
-    };
-    format!("{mantissa}E{sign}{exponent:0>2}")
+    let all = format!("{number:.*e}", DIGITS - 1);
+    let (mantissa, exponent) = all.split_once('e').unwrap_or((&all, "0"));
+    match exponent.strip_prefix('-') {
+        Some(exponent) => format!("{mantissa}E-{exponent:0>2}"),
+        None => format!("{mantissa}E+{exponent:0>2}"),
+    }
+}
+
+/// As many digits of a number as ten columns hold.
+pub(super) fn ten_columns(number: f64) -> String {
+    let texts = (0..=8).flat_map(|k| [format!("{number:.k$}"), format!("{number:.k$E}")]);
+    let fitting = texts.filter(|text| text.len() <= 10 && text.contains(['.', 'E']));
+    let error = |text: &String| (value(text) - number).abs();
+    let nearest = fitting.min_by(|a, b| error(a).total_cmp(&error(b)));
+    nearest.unwrap_or_else(|| format!("{number:.0E}"))
 }
 
 #[cfg(test)]
@@ -92,7 +51,7 @@ mod tests {
 
     #[test]
     fn numbers_keep_thirteen_digits_in_twenty_characters() {
-        for value in [
+        for number in [
             1.0 / 3.0,
             1.973e9,
             -6.02214076e-23,
@@ -100,56 +59,48 @@ mod tests {
             f64::MAX,
             f64::MIN_POSITIVE,
         ] {
-            let printed = Printed::free(value);
-            assert!(printed.to_string().len() <= 20, "{printed}");
-            assert!((printed.value / value - 1.0).abs() <= 5e-13, "{printed}");
+            let printed = digits(rounded(number));
+            assert!(printed.len() <= 20, "{printed}");
+            assert!((value(&printed) / number - 1.0).abs() <= 5e-13, "{printed}");
+            assert_eq!(value(&printed), rounded(number));
         }
-        assert_eq!(Printed::free(8.93).to_string(), "8.93");
-        assert_eq!(Printed::free(2.5e9 / 3.0).to_string(), "8.333333333333E+08");
+        assert_eq!(digits(8.93), "8.93");
+        assert_eq!(digits(rounded(2.5e9 / 3.0)), "8.333333333333E+08");
     }
 
     #[test]
     fn ratios_are_rounded_down() {
         for k in 1..500 {
-            let value = 1.0 / f64::from(k) / 7.0;
-            let printed = Printed::free_downwards(value);
-            assert!(printed.value <= value, "{printed} of {value:e}");
+            let number = 1.0 / f64::from(k) / 7.0;
+            let down = rounded_down(number);
+            assert!(down <= number, "{down:e} of {number:e}");
             // One unit of thirteen digits.
-            assert!(printed.value / value >= 1.0 - 1e-12, "{printed}");
-        }
-        // A ratio that a person wrote, as dividing its modulus gives it.
-        for (value, text) in [
-            (0.07877699999999999, "0.078777"),
-            (0.29119999999999996, "0.2912"),
-        ] {
-            assert_eq!(
-                Printed::free_downwards_but_for_rounding(value).to_string(),
-                text
-            );
+            assert!(down / number >= 1.0 - 1e-12, "{down:e}");
+            assert_eq!(down, rounded(down));
         }
     }
 
     #[test]
     fn ten_columns_hold_five_digits_of_any_number_and_more_of_most() {
-        for (value, text) in [
+        for (number, text) in [
             (254.776e6, "2.54776E8"),
             (8.93, "8.93"),
             (1.0 / 117.96, "0.00847745"),
             (0.0, "0.0"),
         ] {
-            let printed = Printed::ten_columns(value);
-            assert!(printed.to_string().len() <= 10);
+            let printed = ten_columns(number);
+            assert!(printed.len() <= 10);
             assert!(
-                (printed.value - value).abs() <= 1e-6 * value,
+                (value(&printed) - number).abs() <= 1e-6 * number,
                 "{printed} for {text}"
             );
         }
         for exponent in -99..=99 {
-            let value = 1.234_567_89 * 10_f64.powi(exponent);
-            let printed = Printed::ten_columns(value);
-            assert!(printed.to_string().len() <= 10, "{printed}");
+            let number = 1.234_567_89 * 10_f64.powi(exponent);
+            let printed = ten_columns(number);
+            assert!(printed.len() <= 10, "{printed}");
             // Half a unit of the fifth digit.
-            assert!((printed.value / value - 1.0).abs() < 4e-5, "{printed}");
+            assert!((value(&printed) / number - 1.0).abs() < 4e-5, "{printed}");
         }
     }
 }
