@@ -20,11 +20,11 @@ use super::material_dynamic::DynamicFit;
 use super::material_fractional;
 use super::material_table::{self, DirectSum, TableMaterial};
 use super::{material_dynamic, material_temperature};
-use crate::material::classical::{KelvinVoigt, Maxwell, Zener};
+use crate::material::classical::{kelvin_voigt, maxwell, zener};
 use crate::material::library::LibraryEntry;
 use crate::material::sampled::Sampled;
 use crate::material::{
-    Compressibility, Creep, CreepBranch, Material, MaterialError, Relaxation, library,
+    Compressibility, Creep, CreepBranch, Material, MaterialError, ModulusKind, Relaxation, library,
 };
 use crate::simulation::body_material::BodyMaterial;
 
@@ -322,12 +322,14 @@ fn from_block(
         Form::Maxwell => {
             let unit = table_of(block, &MAXWELL, |table| element(table, &MAXWELL_MODULUS));
             let ((modulus_pa, time_s), nu) = (unit?, nu?);
-            Maxwell::new(modulus_pa, time_s).and_then(|body| body.material(nu))
+            maxwell(modulus_pa, time_s)
+                .and_then(|body| Material::from_relaxation(body, ModulusKind::Shear, nu))
         }
         Form::KelvinVoigt => {
             let unit = table_of(block, &KELVIN_VOIGT, |table| element(table, &SPRING));
             let ((spring_pa, time_s), nu) = (unit?, nu?);
-            KelvinVoigt::new(spring_pa, time_s).and_then(|body| body.material(nu))
+            kelvin_voigt(spring_pa, time_s)
+                .and_then(|body| Material::from_creep(body, ModulusKind::Shear, nu))
         }
         Form::Zener => {
             let body = table_of(block, &ZENER, |table| {
@@ -335,7 +337,8 @@ fn from_block(
                 spring.zip(element(table, &KELVIN_SPRING))
             });
             let ((spring_pa, (kelvin_pa, time_s)), nu) = (body?, nu?);
-            Zener::new(spring_pa, kelvin_pa, time_s).and_then(|body| body.material(nu))
+            zener(spring_pa, kelvin_pa, time_s)
+                .and_then(|body| Material::from_creep(body, ModulusKind::Shear, nu))
         }
     };
     Some(made.map(BodyMaterial::from))

@@ -15,8 +15,7 @@ use contact_dma::contact::{ContactError, Engine, Instant, Prescribed, Solution};
 use contact_dma::drive::HarmonicDrive;
 use contact_dma::engine::{EngineKind, SolverPlan};
 use contact_dma::indenter::Indenter;
-use contact_dma::material::classical::{Maxwell, Zener};
-use contact_dma::material::{Creep, Material, library};
+use contact_dma::material::{Creep, Material, ModulusKind, classical, library};
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::{Case, CyclePlan, SweepPlan};
 use contact_dma::sweep::record::CaseRecord;
@@ -110,7 +109,8 @@ pub fn pmma_material() -> Material {
 
 /// A Zener body with two equal springs and a retardation time of 1 s.
 pub fn zener_material() -> Material {
-    Zener::new(1e9, 1e9, 1.0).unwrap().material(0.5).unwrap()
+    let creep = classical::zener(1e9, 1e9, 1.0).unwrap();
+    Material::from_creep(creep, ModulusKind::Shear, 0.5).unwrap()
 }
 
 /// Contact compliance of PMMA.
@@ -125,7 +125,8 @@ pub fn zener() -> Creep {
 
 /// Contact compliance of a Maxwell body of relaxation time 1 s.
 pub fn maxwell() -> Creep {
-    let material = Maxwell::new(1e9, 1.0).unwrap().material(0.5).unwrap();
+    let body = classical::maxwell(1e9, 1.0).unwrap();
+    let material = Material::from_relaxation(body, ModulusKind::Shear, 0.5).unwrap();
     material.contact_compliance().unwrap()
 }
 

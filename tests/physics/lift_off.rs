@@ -11,8 +11,7 @@ use crate::common::solids::{Random, solid_of_ratio};
 use crate::common::{on_cells, run_case, sweep_plan};
 use contact_dma::drive::{Control, HarmonicDrive};
 use contact_dma::indenter::{Cone, Indenter, Sphere};
-use contact_dma::material::classical::Zener;
-use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
+use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch, classical};
 use contact_dma::sweep::plan::{Method, SweepPlan};
 use contact_dma::sweep::record::error_bars::Quantity;
 use contact_dma::sweep::record::{CaseRecord, CaseResult};
@@ -417,7 +416,8 @@ fn a_contact_of_a_few_steps_is_warned_of_and_lies_inside_its_bars() {
 
 #[test]
 fn an_open_cycle_has_its_extremes_on_its_own_samples() {
-    let material = Zener::new(65e6, 935e6, 8.4).unwrap().material(0.3).unwrap();
+    let creep = classical::zener(65e6, 935e6, 8.4).unwrap();
+    let material = Material::from_creep(creep, ModulusKind::Shear, 0.3).unwrap();
     for phase_rad in [0.0, 0.25 * TAU, 0.4 * TAU, 0.8 * TAU] {
         let mut plan = sweep_plan(
             material.clone(),

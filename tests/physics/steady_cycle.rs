@@ -12,7 +12,7 @@ use contact_dma::drive::{Control, HarmonicDrive};
 use contact_dma::engine::EngineKind;
 use contact_dma::history::TimeRule;
 use contact_dma::indenter::{Cone, FlatPunch, Indenter, Sphere};
-use contact_dma::material::Material;
+use contact_dma::material::{Material, ModulusKind, classical};
 use contact_dma::reference::elastic::flat_punch_approach_m;
 use contact_dma::reference::steady::HarmonicContact;
 use contact_dma::sweep::case::Setup;
@@ -540,9 +540,8 @@ fn too_few_cycles_and_a_fluid_are_told_and_give_no_result() {
     assert_eq!(record.status, Status::NotConverged);
     assert!(record.result.is_none() && record.message.is_some());
     assert!(record.steady_distance.unwrap() > plan.cycle.tolerance);
-    let fluid: Material = contact_dma::material::classical::Maxwell::new(1e9, 1.0)
-        .and_then(|maxwell| maxwell.material(0.5))
-        .unwrap();
+    let fluid = classical::maxwell(1e9, 1.0).unwrap();
+    let fluid = Material::from_relaxation(fluid, ModulusKind::Shear, 0.5).unwrap();
     let plan = sweep_plan(fluid, sphere(), MEAN_N, 5.0);
     assert!(contact_dma::sweep::case::Setup::new(plan).is_err());
 }

@@ -16,14 +16,15 @@
 //! use contact_dma::contact::Prescribed;
 //! use contact_dma::contact::axisymmetric::{Axisymmetric, Edge};
 //! use contact_dma::history::{March, TimeRule};
-//! use contact_dma::material::classical::Zener;
+//! use contact_dma::material::classical::zener;
+//! use contact_dma::material::{Material, ModulusKind};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! // Springs under a sphere of 10 mm, whose transformed gap is x^2 / R.
 //! let width_m = 3e-6;
 //! let gaps_m = (0..200).map(|i| ((f64::from(i) + 0.5) * width_m).powi(2) / 0.01);
 //! let mut engine = Axisymmetric::new(width_m, gaps_m.collect(), Edge::Open, true);
-//! let solid = Zener::new(1e9, 1e9, 1.0)?.material(0.35)?.contact_compliance()?;
+//! let solid = Material::from_creep(zener(1e9, 1e9, 1.0)?, ModulusKind::Shear, 0.35)?.contact_compliance()?;
 //! let mut march = March::new(&mut engine, solid, TimeRule::Linear);
 //! let at_once = march.jump(Prescribed::LoadN(10.0))?;
 //! march.hold(10.0, Prescribed::LoadN(10.0))?;

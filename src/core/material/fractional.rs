@@ -474,11 +474,9 @@ mod tests {
         assert!(made.approximation.error < 1e-14);
         let maxwell = Fractional::maxwell(1e6, 2.0, 1.0, 0.0).unwrap();
         let made = maxwell.represent(BAND, 1e-8).unwrap();
-        let classical = classical::Maxwell::new(1e6, 2.0).unwrap();
-        assert_eq!(made.relaxation, classical.relaxation().unwrap());
+        assert_eq!(made.relaxation, classical::maxwell(1e6, 2.0).unwrap());
         // The springs of the classical solid in series: 1/(1/4e6), and the Kelvin unit that leaves 1e6 at rest.
-        let solid = classical::Zener::new(4e6, 4e6 / 3.0, 8.0).unwrap();
-        let solid = solid.relaxation().unwrap();
+        let solid = classical::zener(4e6, 4e6 / 3.0, 8.0).unwrap();
         for exponent in [-3, 0, 2] {
             let omega = 10_f64.powi(exponent);
             let ratio = zener.complex_modulus(omega) / solid.complex_modulus(omega);

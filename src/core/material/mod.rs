@@ -503,10 +503,8 @@ mod tests {
 
     #[test]
     fn a_kelvin_voigt_solid_can_be_looked_at_but_not_put_into_contact() {
-        let material = classical::KelvinVoigt::new(1e9, 2.0)
-            .unwrap()
-            .material(0.3)
-            .unwrap();
+        let creep = classical::kelvin_voigt(1e9, 2.0).unwrap();
+        let material = Material::from_creep(creep, ModulusKind::Shear, 0.3).unwrap();
         assert_eq!(material.relaxation(), None);
         assert_eq!(material.given(), MaterialFunction::Creep);
         assert_relative_eq!(

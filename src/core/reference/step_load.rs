@@ -179,15 +179,17 @@ mod tests {
     use std::f64::consts::PI;
 
     use super::*;
-    use crate::material::classical::{Maxwell, Zener};
+    use crate::material::{Material, ModulusKind, classical};
 
     fn maxwell() -> StepLoad {
-        let material = Maxwell::new(1e6, 1.0).unwrap().material(0.5).unwrap();
+        let body = classical::maxwell(1e6, 1.0).unwrap();
+        let material = Material::from_relaxation(body, ModulusKind::Shear, 0.5).unwrap();
         StepLoad::new(0.01, 0.01, material.contact_compliance().unwrap()).unwrap()
     }
 
     fn zener() -> StepLoad {
-        let material = Zener::new(1e6, 1e6, 1.0).unwrap().material(0.5).unwrap();
+        let body = classical::zener(1e6, 1e6, 1.0).unwrap();
+        let material = Material::from_creep(body, ModulusKind::Shear, 0.5).unwrap();
         StepLoad::new(0.01, 0.01, material.contact_compliance().unwrap()).unwrap()
     }
 

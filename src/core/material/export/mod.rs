@@ -361,7 +361,7 @@ fn largest_difference(made: &Relaxation, exact: &Relaxation, (low, high): (f64, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::classical::KelvinVoigt;
+    use crate::material::classical::kelvin_voigt;
     use crate::material::{Creep, CreepBranch, library};
 
     fn series(equilibrium: f64, count: i32, kind: ModulusKind, nu: f64) -> Material {
@@ -408,7 +408,8 @@ mod tests {
                 written => assert!(written.unwrap().conversion_error < 5e-5, "{program:?}"),
             }
         }
-        let kelvin = KelvinVoigt::new(1e6, 2.0).unwrap().material(0.3).unwrap();
+        let kelvin = kelvin_voigt(1e6, 2.0).unwrap();
+        let kelvin = Material::from_creep(kelvin, ModulusKind::Shear, 0.3).unwrap();
         let refused = export(&kelvin, None, Program::Abaqus).unwrap_err();
         assert!(refused.to_string().contains("Abaqus"), "{refused}");
     }
