@@ -1,9 +1,9 @@
 //! What a hysteresis loop says: energy loss by two routes, phase lag, harmonics, equivalent complex modulus.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
+use num_complex::Complex;
 use realfft::RealFftPlanner;
-use realfft::num_complex::Complex;
 
 /// Why a loop cannot be analysed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -25,6 +25,15 @@ pub enum LoopError {
     Constant { signal: &'static str },
     #[error("the transform of the loop failed: {0}")]
     Transform(String),
+}
+
+/// A cycle of load and approach as means and harmonics, the first first: harmonic n of a signal is |a_n| sin(n omega t + arg a_n).
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Harmonics {
+    pub load_mean_n: f64,
+    pub approach_mean_m: f64,
+    pub load_n: Vec<Complex<f64>>,
+    pub approach_m: Vec<Complex<f64>>,
 }
 
 /// Amplitude and phase of one harmonic: value sin(n omega t + phase).
@@ -63,45 +72,31 @@ const HARMONICS: usize = 5;
 /// [`LoopError`] for loops that are too short, not finite or constant.
 pub fn analyse(load_n: &[f64], approach_m: &[f64]) -> Result<LoopAnalysis, LoopError> {
     check(load_n, approach_m)?;
-    let load = spectrum(load_n)?;
-    let approach = spectrum(approach_m)?;
-    let harmonics: Vec<Harmonic> = load
-        .iter()
-        .zip(&approach)
-        .skip(1)
-        .take(HARMONICS)
-        .map(|(w, d)| Harmonic {
-            load_amplitude_n: w.norm(),
-            load_phase_rad: w.arg(),
-            approach_amplitude_m: d.norm(),
-            approach_phase_rad: d.arg(),
-        })
-        .collect();
-    for (signal, values, first) in [
-        ("load", load_n, load[1]),
-        ("approach", approach_m, approach[1]),
+    let cycle = Harmonics::of(load_n, approach_m)?;
+    for (signal, values, harmonics) in [
+        ("load", load_n, &cycle.load_n),
+        ("approach", approach_m, &cycle.approach_m),
     ] {
         let scale = values.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
         // A first harmonic at the level of rounding carries no phase.
-        if first.norm() <= 1e-13 * scale {
+        if harmonics[0].norm() <= 1e-13 * scale {
             return Err(LoopError::Constant { signal });
         }
     }
-    // sin(phase of W - phase of delta) |W| |delta| = Im(W conj(delta)).
-    let energy_loss_j = load
-        .iter()
-        .zip(&approach)
-        .enumerate()
-        .skip(1)
-        .map(|(n, (w, d))| PI * n as f64 * (w * d.conj()).im)
-        .sum();
+    let harmonic = |(w, d): (&Complex<f64>, &Complex<f64>)| Harmonic {
+        load_amplitude_n: w.norm(),
+        load_phase_rad: w.arg(),
+        approach_amplitude_m: d.norm(),
+        approach_phase_rad: d.arg(),
+    };
+    let pairs = cycle.load_n.iter().zip(&cycle.approach_m);
     Ok(LoopAnalysis {
-        energy_loss_j,
+        energy_loss_j: cycle.energy_loss_j(),
         polygon_loss_j: polygon_area(load_n, approach_m),
-        phase_lag_rad: (load[1] * approach[1].conj()).arg(),
-        load_mean_n: load[0].re,
-        approach_mean_m: approach[0].re,
-        harmonics,
+        phase_lag_rad: cycle.phase_lag_rad(),
+        load_mean_n: cycle.load_mean_n,
+        approach_mean_m: cycle.approach_mean_m,
+        harmonics: pairs.take(HARMONICS).map(harmonic).collect(),
     })
 }
 
@@ -124,6 +119,50 @@ fn closed(samples: &[f64]) -> Vec<f64> {
         .map_or(0.0, |(a, b)| b - a);
     let flat = |(i, value): (usize, &f64)| value - change * (i as f64 / steps - 0.5);
     samples.iter().enumerate().map(flat).collect()
+}
+
+impl Harmonics {
+    /// All harmonics of the samples of one period, both ends included, below the one of Nyquist.
+    fn of(load_n: &[f64], approach_m: &[f64]) -> Result<Self, LoopError> {
+        let (mut load, mut approach) = (spectrum(load_n)?, spectrum(approach_m)?);
+        Ok(Self {
+            load_mean_n: load.remove(0).re,
+            approach_mean_m: approach.remove(0).re,
+            load_n: load,
+            approach_m: approach,
+        })
+    }
+
+    /// Energy (J) that the cycle dissipates: the sum over all harmonics that both signals have.
+    pub fn energy_loss_j(&self) -> f64 {
+        // sin(phase of W - phase of delta) |W| |delta| = Im(W conj(delta)).
+        let pairs = self.load_n.iter().zip(&self.approach_m).enumerate();
+        pairs
+            .map(|(n, (w, d))| PI * (n + 1) as f64 * (w * d.conj()).im)
+            .sum()
+    }
+
+    /// Lag (rad) of the approach behind the load, first harmonic; 0 where one of them has none.
+    pub fn phase_lag_rad(&self) -> f64 {
+        let first = self.load_n.first().zip(self.approach_m.first());
+        first.map_or(0.0, |(w, d)| (w * d.conj()).arg())
+    }
+
+    /// Load (N) and approach (m) over a period in this many uniform steps, both ends included.
+    pub fn sampled(&self, steps: usize) -> (Vec<f64>, Vec<f64>) {
+        let at = |mean: f64, harmonics: &[Complex<f64>], k: usize| {
+            let angle = TAU * (k % steps) as f64 / steps as f64;
+            let waves = harmonics.iter().enumerate();
+            mean + waves
+                .map(|(n, a)| (a * Complex::cis((n + 1) as f64 * angle)).im)
+                .sum::<f64>()
+        };
+        let signal = |mean, harmonics| (0..=steps).map(|k| at(mean, harmonics, k)).collect();
+        (
+            signal(self.load_mean_n, &self.load_n),
+            signal(self.approach_mean_m, &self.approach_m),
+        )
+    }
 }
 
 impl LoopAnalysis {
@@ -238,7 +277,7 @@ pub(super) fn polygon_area(load_n: &[f64], approach_m: &[f64]) -> f64 {
 /// Angle of sample `i` of `n` on the period.
 #[cfg(test)]
 fn angle(i: usize, n: usize) -> f64 {
-    std::f64::consts::TAU * i as f64 / n as f64
+    TAU * i as f64 / n as f64
 }
 
 #[cfg(test)]

@@ -23,7 +23,7 @@
 mod analysis;
 mod stabilisation;
 
-pub use analysis::{Harmonic, LoopAnalysis, LoopError, analyse, analyse_open};
+pub use analysis::{Harmonic, Harmonics, LoopAnalysis, LoopError, analyse, analyse_open};
 pub use stabilisation::closure_error;
 
 /// One cycle of a contact, sampled uniformly, first and last sample one period apart.

@@ -12,9 +12,9 @@ use std::sync::Arc;
 use num_complex::Complex;
 use serde::{Deserialize, Serialize};
 
-use super::corrections::Harmonics;
 use super::moduli::{Contact, Radius, radius_of_geometry};
 use super::statistics::{Estimate, NORMAL};
+use crate::cycle::Harmonics;
 use crate::drive::{Control, HarmonicDrive};
 use crate::indenter::Indenter;
 use crate::material::{Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch};

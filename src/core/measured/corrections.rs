@@ -13,6 +13,7 @@ use num_complex::Complex;
 use serde::{Deserialize, Serialize};
 
 use super::Signal;
+use crate::cycle::Harmonics;
 
 /// What is known of an instrument; zero where it adds nothing.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
@@ -31,40 +32,6 @@ pub struct Corrections {
     pub thermal_drift_m_per_s: f64,
     /// Reading of the approach at first touch (m).
     pub approach_at_touch_m: f64,
-}
-
-/// A cycle of both signals as means and harmonics, the first first.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct Harmonics {
-    pub load_mean_n: f64,
-    pub approach_mean_m: f64,
-    #[serde(with = "pairs")]
-    pub load_n: Vec<Complex<f64>>,
-    #[serde(with = "pairs")]
-    pub approach_m: Vec<Complex<f64>>,
-}
-
-/// Complex numbers as pairs of real and imaginary part.
-mod pairs {
-    use num_complex::Complex;
-    use serde::{Deserialize, Deserializer, Serializer};
-
-    pub(super) fn serialize<S: Serializer>(
-        numbers: &[Complex<f64>],
-        serializer: S,
-    ) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(numbers.iter().map(|z| (z.re, z.im)))
-    }
-
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
-        deserializer: D,
-    ) -> Result<Vec<Complex<f64>>, D::Error> {
-        let pairs = Vec::<(f64, f64)>::deserialize(deserializer)?;
-        Ok(pairs
-            .into_iter()
-            .map(|(re, im)| Complex::new(re, im))
-            .collect())
-    }
 }
 
 impl Corrections {

@@ -1,12 +1,14 @@
 //! The record cut into cycles, each fitted by itself with mean and harmonics at the times of its samples.
 
+use nalgebra::DVector;
 use num_complex::Complex;
 use serde::{Deserialize, Serialize};
 
 use super::Signal;
-use super::corrections::{Corrections, Harmonics};
+use super::corrections::Corrections;
 use super::drift::{self, Drift, Span};
 use super::least_squares::Normal;
+use crate::cycle::Harmonics;
 
 /// One cycle as measured, drift taken off.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -112,14 +114,11 @@ fn fit(
         return None;
     }
     let design = drift::design(times, &span, of_model, &[]);
-    let normal = Normal::new(&design.gram(), (0..columns).collect())?;
+    let normal = Normal::new(&(&design * design.transpose()), (0..columns).collect())?;
     let solved = |values: &[f64], drift: &Drift| {
-        let own = values.get(range.clone()).unwrap_or_default();
-        let flat = own
-            .iter()
-            .zip(times)
-            .map(|(value, time)| value - drift.at(*time));
-        normal.solve(&design.with(flat))
+        let own = values.get(range.clone()).unwrap_or_default().iter();
+        let flat = own.zip(times).map(|(value, time)| value - drift.at(*time));
+        normal.solve(&(&design * DVector::from_iterator(times.len(), flat)))
     };
     let load = solved(&signal.load_n, &drifts[0]);
     let approach = solved(&signal.approach_m, &drifts[1]);
@@ -138,8 +137,8 @@ fn fit(
         raw: Harmonics {
             load_mean_n: load[0],
             approach_mean_m: approach[0],
-            load_n: complex(&load[1..]),
-            approach_m: complex(&approach[1..]),
+            load_n: complex(&load),
+            approach_m: complex(&approach),
         },
         corrected: Harmonics::default(),
         load_drift_n: drifts[0].at(middle_s),
@@ -148,9 +147,9 @@ fn fit(
     })
 }
 
-/// Coefficients of sine and cosine, pair by pair, as harmonics |a| sin(n omega t + arg a).
-fn complex(coefficients: &[f64]) -> Vec<Complex<f64>> {
-    let pairs = coefficients.chunks_exact(2);
+/// Coefficients of sine and cosine, pair by pair behind the mean, as harmonics |a| sin(n omega t + arg a).
+fn complex(coefficients: &DVector<f64>) -> Vec<Complex<f64>> {
+    let pairs = coefficients.as_slice()[1..].chunks_exact(2);
     pairs.map(|pair| Complex::new(pair[0], pair[1])).collect()
 }
 

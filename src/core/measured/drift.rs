@@ -1,11 +1,13 @@
 //! What moves a signal besides its oscillation: thermal drift, creep towards a mean. A polynomial or an exponential, whichever the
 //! data speak for.
 
+use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use super::Signal;
-use super::least_squares::{Design, Normal, harmonic_columns};
+use super::least_squares::{Normal, harmonic_columns};
 use super::noise::correlation;
+use crate::numerics::grid;
 
 /// A drift without its size.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -134,81 +136,117 @@ impl Drift {
     }
 }
 
-/// Samples at these times (s) as a linear model: mean and harmonics, then the columns of the drifts one after another.
+/// Samples at these times (s) as a linear model: mean and harmonics, then the functions of the drifts one after another.
 pub(super) fn design(
     times_s: &[f64],
     span: &Span,
     (angular, harmonics): (f64, usize),
     drifts: &[DriftModel],
-) -> Design {
+) -> DMatrix<f64> {
     let sizes = drifts.iter().map(|drift| drift.size());
-    let mut design = Design::new(1 + 2 * harmonics + sizes.sum::<usize>(), times_s.len());
-    for time_s in times_s {
-        design.push(|row| {
-            let mut from = harmonic_columns(row, angular * (time_s - span.first_s), harmonics);
-            for drift in drifts {
-                let to = from + drift.size();
-                drift.fill(&mut row[from..to], span, *time_s);
-                from = to;
-            }
-        });
+    let mut design = DMatrix::zeros(1 + 2 * harmonics + sizes.sum::<usize>(), times_s.len());
+    for (mut sample, time_s) in design.column_iter_mut().zip(times_s) {
+        let row = sample.as_mut_slice();
+        let mut from = harmonic_columns(row, angular * (time_s - span.first_s), harmonics);
+        for drift in drifts {
+            let to = from + drift.size();
+            drift.fill(&mut row[from..to], span, *time_s);
+            from = to;
+        }
     }
     design
 }
 
-/// Candidates side by side: all their columns in one design.
+/// Drifts that are compared, all their functions in one linear model.
 struct Candidates {
-    design: Design,
-    gram: nalgebra::DMatrix<f64>,
-    /// Columns that all have: mean and harmonics.
+    design: DMatrix<f64>,
+    gram: DMatrix<f64>,
+    /// Functions that all have: mean and harmonics. Those of the polynomials follow, then the exponentials.
     common: usize,
     times_s: Vec<f64>,
 }
 
+/// A drift, and the places of its functions among those of all candidates.
+type Candidate = (DriftModel, Vec<usize>);
+
 impl Candidates {
-    fn new(
-        signal: &Signal,
-        span: &Span,
-        angular: f64,
-        harmonics: usize,
-        times_s: Vec<f64>,
-    ) -> Self {
-        let mut all = vec![DriftModel::Polynomial { degree: DEGREE }];
-        all.extend(
-            times_s
-                .iter()
-                .map(|&time_s| DriftModel::Exponential { time_s }),
-        );
-        let design = design(&signal.time_s, span, (angular, harmonics), &all);
+    fn new(signal: &Signal, span: &Span, oscillation: (f64, usize), times_s: Vec<f64>) -> Self {
+        let exponentials = times_s
+            .iter()
+            .map(|&time_s| DriftModel::Exponential { time_s });
+        let polynomial = DriftModel::Polynomial { degree: DEGREE };
+        let all: Vec<DriftModel> = [polynomial].into_iter().chain(exponentials).collect();
+        let design = design(&signal.time_s, span, oscillation, &all);
         Self {
-            gram: design.gram(),
+            gram: &design * design.transpose(),
             design,
-            common: 1 + 2 * harmonics,
+            common: 1 + 2 * oscillation.1,
             times_s,
         }
     }
 
-    /// Exponentials of all time constants, then those with a line.
-    fn exponentials(&self) -> impl Iterator<Item = DriftModel> + '_ {
-        let times = || self.times_s.iter().copied();
-        let alone = times().map(|time_s| DriftModel::Exponential { time_s });
-        alone.chain(times().map(|time_s| DriftModel::ExponentialAndLine { time_s }))
+    fn polynomial(&self, degree: usize) -> Candidate {
+        let own = self.common..self.common + degree;
+        (DriftModel::Polynomial { degree }, own.collect())
     }
 
-    /// Columns of a model; `None` for a time constant that is not among those tried.
-    fn columns(&self, model: DriftModel) -> Option<Vec<usize>> {
-        let first = self.common;
-        let exponential = |time_s: f64| {
-            let found = self.times_s.iter().position(|time| *time == time_s);
-            found.map(|k| first + DEGREE + k)
+    /// Exponentials of all time constants, then those with a line.
+    fn exponentials(&self) -> impl Iterator<Item = Candidate> + '_ {
+        let times = || (self.common + DEGREE..).zip(&self.times_s);
+        let alone =
+            times().map(|(place, &time_s)| (DriftModel::Exponential { time_s }, vec![place]));
+        let line = self.common;
+        let and_line = times().map(move |(place, &time_s)| {
+            (DriftModel::ExponentialAndLine { time_s }, vec![place, line])
+        });
+        alone.chain(and_line)
+    }
+
+    fn normal(&self, own: &[usize]) -> Option<Normal> {
+        let all = (0..self.common).chain(own.iter().copied());
+        Normal::new(&self.gram, all.collect())
+    }
+
+    /// How many samples of a signal count as independent beside the richest polynomial.
+    fn independent(&self, signal: &DVector<f64>, degree: usize) -> Option<f64> {
+        let normal = self.normal(&self.polynomial(degree).1)?;
+        let coefficients = normal.solve(&(&self.design * signal));
+        let residual = signal - self.design.tr_mul(&coefficients);
+        let phi = correlation(residual.as_slice());
+        Some((residual.len() as f64 * (1.0 - phi) / (1.0 + phi)).max(4.0))
+    }
+
+    /// The best of these for a signal without its mean, or no drift; with its criterion, of which less is better. A later one must be
+    /// better by strong evidence, but among those of one size.
+    fn best(
+        &self,
+        signal: &DVector<f64>,
+        independent: f64,
+        candidates: impl Iterator<Item = Candidate>,
+    ) -> (f64, DriftModel) {
+        let right = &self.design * signal;
+        let squares = signal.norm_squared();
+        let criterion = |model: DriftModel, own: &[usize]| {
+            let explained = self.normal(own).map(|normal| normal.explained(&right));
+            // What rounding leaves of an exact record.
+            let left = explained.map(|explained| (squares - explained).max(1e-13 * squares));
+            // A time constant is a coefficient too.
+            let size = model.size() + usize::from(model.time_s().is_some());
+            left.map_or(f64::INFINITY, |left| {
+                independent * left.ln() + size as f64 * independent.ln()
+            })
         };
-        let own: Vec<usize> = match model {
-            DriftModel::None => Vec::new(),
-            DriftModel::Polynomial { degree } => (first..first + degree).collect(),
-            DriftModel::Exponential { time_s } => vec![exponential(time_s)?],
-            DriftModel::ExponentialAndLine { time_s } => vec![exponential(time_s)?, first],
-        };
-        Some((0..first).chain(own).collect())
+        let none = DriftModel::None;
+        let mut best = (criterion(none, &[]), none);
+        for (model, own) in candidates {
+            let criterion = criterion(model, &own);
+            let is_larger = model.size() != best.1.size();
+            let needed = if is_larger { EVIDENCE } else { 0.0 };
+            if criterion < best.0 - needed {
+                best = (criterion, model);
+            }
+        }
+        best
     }
 }
 
@@ -221,130 +259,40 @@ pub(super) fn select(
     harmonics: usize,
 ) -> [DriftModel; 2] {
     let period_s = std::f64::consts::TAU / angular;
-    let cycles = span.duration_s() / period_s;
-    let degree = DEGREE
-        .min((cycles.round() as usize).saturating_sub(1))
-        .max(1);
-    let (shortest_s, longest_s) = (0.5 * period_s, 3.0 * span.duration_s());
-    let times_s = logarithmic(shortest_s, longest_s, TIMES);
-    let candidates = Candidates::new(signal, span, angular, harmonics, times_s);
+    let cycles = (span.duration_s() / period_s).round() as usize;
+    let degree = cycles.saturating_sub(1).clamp(1, DEGREE);
+    let longest_s = 3.0 * span.duration_s();
+    let about = |from_s: f64, to_s: f64| {
+        let times_s = grid::in_steps(from_s, to_s.min(longest_s), TIMES - 1);
+        Candidates::new(signal, span, (angular, harmonics), times_s)
+    };
+    let candidates = about(0.5 * period_s, longest_s);
     [&signal.load_n, &signal.approach_m].map(|values| {
-        let Some(search) = Search::new(&candidates, values, degree) else {
+        // Without the mean, so that nothing is lost to cancellation.
+        let values = DVector::from_column_slice(values);
+        let values = values.add_scalar(-values.mean());
+        let Some(independent) = candidates.independent(&values, degree) else {
             return DriftModel::None;
         };
-        let polynomials = (1..=degree).map(|degree| DriftModel::Polynomial { degree });
-        let polynomial = search.best(&candidates, polynomials);
+        let polynomials = (1..=degree).map(|degree| candidates.polynomial(degree));
+        let polynomial = candidates.best(&values, independent, polynomials);
         if matches!(polynomial.1, DriftModel::None) {
             return DriftModel::None;
         }
         // Between two of the time constants lies one that may be better than any polynomial.
-        let coarse = search.best(&candidates, candidates.exponentials());
-        let finer = coarse.1.time_s().and_then(|time_s| {
-            let about = (time_s, longest_s);
-            finer(signal, span, (angular, harmonics), about, (values, &search))
-        });
-        match finer {
-            Some((criterion, model)) if criterion < polynomial.0 => model,
+        let mut exponential = candidates.best(&values, independent, candidates.exponentials());
+        for width in [1.6, 1.1] {
+            let Some(time_s) = exponential.1.time_s() else {
+                break;
+            };
+            let finer = about(time_s / width, time_s * width);
+            exponential = finer.best(&values, independent, finer.exponentials());
+        }
+        match exponential {
+            (criterion, model) if model.time_s().is_some() && criterion < polynomial.0 => model,
             _ => polynomial.1,
         }
     })
-}
-
-fn logarithmic(from: f64, to: f64, points: usize) -> Vec<f64> {
-    let ratio = (to / from).ln() / (points.max(2) - 1) as f64;
-    (0..points)
-        .map(|k| from * (ratio * k as f64).exp())
-        .collect()
-}
-
-/// The time constant of an exponential between the neighbours of one that is about right, and its criterion.
-fn finer(
-    signal: &Signal,
-    span: &Span,
-    (angular, harmonics): (f64, usize),
-    (about_s, longest_s): (f64, f64),
-    (values, search): (&[f64], &Search),
-) -> Option<(f64, DriftModel)> {
-    let mut about_s = about_s;
-    let mut best = None;
-    for width in [1.6, 1.1] {
-        let (from, to) = (about_s / width, (about_s * width).min(longest_s));
-        let times_s = logarithmic(from, to, TIMES);
-        let candidates = Candidates::new(signal, span, angular, harmonics, times_s);
-        let search = Search {
-            independent: search.independent,
-            ..Search::new(&candidates, values, 1)?
-        };
-        let found = search.best(&candidates, candidates.exponentials());
-        about_s = found.1.time_s()?;
-        best = Some(found);
-    }
-    best
-}
-
-/// What is needed to compare candidates on one signal.
-struct Search {
-    right: nalgebra::DVector<f64>,
-    /// Sum of the squares of the signal without its mean.
-    squares: f64,
-    /// Samples that count as independent.
-    independent: f64,
-}
-
-impl Search {
-    fn new(candidates: &Candidates, values: &[f64], degree: usize) -> Option<Self> {
-        // Without the mean, so that nothing is lost to cancellation.
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
-        let centered = || values.iter().map(|value| value - mean);
-        let right = candidates.design.with(centered());
-        let squares = centered().map(|value| value * value).sum();
-        let richest = candidates.columns(DriftModel::Polynomial { degree })?;
-        let normal = Normal::new(&candidates.gram, richest)?;
-        let coefficients = normal.solve(&right);
-        let model = candidates.design.model(&coefficients);
-        let residual: Vec<f64> = centered().zip(model).map(|(y, m)| y - m).collect();
-        let phi = correlation(&residual);
-        Some(Self {
-            right,
-            squares,
-            independent: (residual.len() as f64 * (1.0 - phi) / (1.0 + phi)).max(4.0),
-        })
-    }
-
-    /// The best of these, or no drift; with its criterion. A later one must be better by strong evidence, but among those of one
-    /// size.
-    fn best(
-        &self,
-        candidates: &Candidates,
-        models: impl Iterator<Item = DriftModel>,
-    ) -> (f64, DriftModel) {
-        let none = DriftModel::None;
-        let mut best = (self.criterion(candidates, none), none);
-        for model in models {
-            let criterion = self.criterion(candidates, model);
-            let is_larger = model.size() != best.1.size();
-            let needed = if is_larger { EVIDENCE } else { 0.0 };
-            if criterion < best.0 - needed {
-                best = (criterion, model);
-            }
-        }
-        best
-    }
-
-    /// Smaller is better.
-    fn criterion(&self, candidates: &Candidates, model: DriftModel) -> f64 {
-        let normal = candidates
-            .columns(model)
-            .and_then(|c| Normal::new(&candidates.gram, c));
-        let Some(normal) = normal else {
-            return f64::INFINITY;
-        };
-        // What rounding leaves of an exact record.
-        let left = (self.squares - normal.explained(&self.right)).max(1e-13 * self.squares);
-        // A time constant is a coefficient too.
-        let size = model.size() + usize::from(model.time_s().is_some());
-        self.independent * left.ln() + size as f64 * self.independent.ln()
-    }
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
 //! The frequency of a record: the highest line of the spectrum, then least squares of one frequency with its harmonics in both
 //! signals at once, at the times of the samples as they are.
 
+use nalgebra::{DMatrix, DVector};
 use realfft::RealFftPlanner;
 use serde::{Deserialize, Serialize};
 
 use super::drift::{self, DriftModel, Span};
-use super::least_squares::{Design, Normal};
+use super::least_squares::Normal;
 use super::noise::Noise;
 use super::signal::Sampling;
 use super::{MeasuredError, Signal};
@@ -162,8 +163,8 @@ pub(super) struct RecordModel {
 /// What a model is of one signal.
 pub(super) struct Fit {
     /// Of all columns: mean, harmonics, both drifts.
-    pub(super) coefficients: Vec<f64>,
-    pub(super) residual: Vec<f64>,
+    pub(super) coefficients: DVector<f64>,
+    pub(super) residual: DVector<f64>,
     /// The part of the variance that is left.
     pub(super) unexplained: f64,
     pub(super) normal: Normal,
@@ -204,7 +205,7 @@ impl RecordModel {
         from..from + self.drifts[which].size()
     }
 
-    fn design(&self, times_s: &[f64]) -> Design {
+    fn design(&self, times_s: &[f64]) -> DMatrix<f64> {
         let harmonics = (self.angular, self.harmonics);
         drift::design(times_s, &self.span, harmonics, &self.drifts)
     }
@@ -214,26 +215,25 @@ impl RecordModel {
         self.fits_of(&self.design(&signal.time_s), signal)
     }
 
-    fn fits_of(&self, design: &Design, signal: &Signal) -> Option<[Fit; 2]> {
-        let gram = design.gram();
+    fn fits_of(&self, design: &DMatrix<f64>, signal: &Signal) -> Option<[Fit; 2]> {
+        let gram = design * design.transpose();
         let fit = |which: usize, values: &[f64]| {
             let columns: Vec<usize> = (0..self.common())
                 .chain(self.drift_columns(which))
                 .collect();
             let count = columns.len();
             let normal = Normal::new(&gram, columns)?;
-            let mean = values.iter().sum::<f64>() / values.len() as f64;
-            let centered = || values.iter().map(|value| value - mean);
-            let mut coefficients = normal.solve(&design.with(centered()));
-            let model = design.model(&coefficients);
-            let residual: Vec<f64> = centered().zip(model).map(|(y, m)| y - m).collect();
-            let left: f64 = residual.iter().map(|r| r * r).sum();
-            let whole: f64 = centered().map(|y| y * y).sum();
+            let values = DVector::from_column_slice(values);
+            let mean = values.mean();
+            let centered = values.add_scalar(-mean);
+            let mut coefficients = normal.solve(&(design * &centered));
+            let residual = &centered - design.tr_mul(&coefficients);
+            let unexplained = residual.norm_squared() / centered.norm_squared();
             coefficients[0] += mean;
             Some(Fit {
                 coefficients,
                 residual,
-                unexplained: left / whole,
+                unexplained,
                 normal,
                 columns: count,
             })
@@ -252,7 +252,7 @@ impl RecordModel {
             for fit in &fits {
                 let (own_slope, own_curvature) = self.derivative(&design, fit, signal);
                 let noise = Noise::of(
-                    &fit.residual,
+                    fit.residual.as_slice(),
                     &[],
                     fit.columns,
                     sampling.interval_s,
@@ -284,25 +284,20 @@ impl RecordModel {
 
     /// Product of the residual with the derivative of the model by the frequency, and the square of what the derivative has of its
     /// own beside the columns (variable projection in the form of L. Kaufman, BIT 15, 1975, 49).
-    fn derivative(&self, design: &Design, fit: &Fit, signal: &Signal) -> (f64, f64) {
-        let derivative: Vec<f64> = design
-            .rows()
-            .zip(&signal.time_s)
-            .map(|(row, time_s)| {
-                let turned = (1..=self.harmonics).map(|n| {
-                    let (sine, cosine) = (row[2 * n - 1], row[2 * n]);
-                    let (s, c) = (fit.coefficients[2 * n - 1], fit.coefficients[2 * n]);
-                    n as f64 * (s * cosine - c * sine)
-                });
-                (time_s - self.span.first_s) * turned.sum::<f64>()
-            })
-            .collect();
-        let squares: f64 = derivative.iter().map(|z| z * z).sum();
-        let slope = derivative.iter().zip(&fit.residual).map(|(z, r)| z * r);
-        let slope = slope.sum();
-        let with_columns = design.with(derivative.iter().copied());
-        let explained = fit.normal.explained(&with_columns);
-        (slope, squares - explained)
+    fn derivative(&self, design: &DMatrix<f64>, fit: &Fit, signal: &Signal) -> (f64, f64) {
+        let samples = design.column_iter().zip(&signal.time_s);
+        let derivative = samples.map(|(row, time_s)| {
+            let turned = (1..=self.harmonics).map(|n| {
+                let (sine, cosine) = (row[2 * n - 1], row[2 * n]);
+                let (s, c) = (fit.coefficients[2 * n - 1], fit.coefficients[2 * n]);
+                n as f64 * (s * cosine - c * sine)
+            });
+            (time_s - self.span.first_s) * turned.sum::<f64>()
+        });
+        let derivative = DVector::from_iterator(signal.time_s.len(), derivative);
+        let explained = fit.normal.explained(&(design * &derivative));
+        let own = derivative.norm_squared() - explained;
+        (derivative.dot(&fit.residual), own)
     }
 }
 

@@ -5,7 +5,6 @@ use std::ops::Range;
 use num_complex::Complex;
 
 use super::bias;
-use super::corrections::Harmonics;
 use super::frequency::{Fit, RecordModel};
 use super::noise::Noise;
 use super::quality::Finding;
@@ -13,6 +12,7 @@ use super::quantities::{HARMONICS_OF_APPROACH, Quantity, Values};
 use super::signal::Sampling;
 use super::statistics::{Estimate, StandardError};
 use super::{MeasuredLoop, Options, Signal};
+use crate::cycle::Harmonics;
 use crate::numerics::order::upper_median;
 
 /// Parts of a cycle over which samples are averaged to be drawn.
@@ -188,7 +188,7 @@ impl Mean<'_> {
         let mut coarse = Vec::new();
         for (which, fit) in fits.iter().enumerate() {
             let noise = Noise::of(
-                &fit.residual,
+                fit.residual.as_slice(),
                 &signal.time_s,
                 fit.columns,
                 interval_s,

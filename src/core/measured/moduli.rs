@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use num_complex::Complex;
 
-use super::corrections::Harmonics;
+use crate::cycle::Harmonics;
 use crate::indenter::{Axisymmetric, Indenter};
 use crate::material::Material;
+use crate::numerics::roots::{ALL_DIGITS, bisect};
 
 /// Where the contact radius comes from.
 #[derive(Debug, Clone, PartialEq)]
@@ -91,24 +92,13 @@ pub fn radius_of_geometry(body: &dyn Axisymmetric, approach_m: f64) -> Option<f6
         return Some(limit_m);
     }
     // Any length will do to start from.
-    let mut high_m = limit_m.unwrap_or(approach_m);
-    while !reaches(high_m) {
-        high_m *= 2.0;
-        if !high_m.is_finite() {
-            return None;
-        }
-    }
-    let mut low_m = 0.0;
-    loop {
-        let middle_m = 0.5 * (low_m + high_m);
-        if middle_m <= low_m || middle_m >= high_m {
-            return Some(high_m);
-        }
-        match reaches(middle_m) {
-            true => high_m = middle_m,
-            false => low_m = middle_m,
-        }
-    }
+    let lengths = std::iter::successors(limit_m.or(Some(approach_m)), |length_m| {
+        Some(2.0 * length_m)
+    });
+    let high_m = lengths
+        .take_while(|length_m| length_m.is_finite())
+        .find(|length_m| reaches(*length_m))?;
+    Some(bisect(0.0, high_m, ALL_DIGITS, |radius_m| !reaches(radius_m)).1)
 }
 
 fn area_radius(cycle: &Harmonics, coefficients: &[f64], epsilon: f64) -> Option<f64> {

@@ -1,12 +1,9 @@
 //! What is read from a cycle: loss, phase, amplitudes, means, harmonics, extrema, moduli; one list for single cycles, means and
 //! uncertainties.
 
-use std::f64::consts::PI;
-
 use num_complex::Complex;
 
-use super::corrections::Harmonics;
-use crate::cycle::Extrema;
+use crate::cycle::{Extrema, Harmonics};
 
 /// A number of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -111,44 +108,19 @@ pub type Values = [Option<f64>; Quantity::ALL.len()];
 const SAMPLES: usize = 128;
 
 impl Harmonics {
-    /// Energy (J) that the cycle dissipates: the sum over all harmonics that both signals have.
-    pub fn energy_loss_j(&self) -> f64 {
-        let pairs = self.load_n.iter().zip(&self.approach_m).enumerate();
-        pairs
-            .map(|(n, (w, d))| PI * (n + 1) as f64 * (w * d.conj()).im)
-            .sum()
-    }
-
-    /// The approach over a period, in this many uniform samples, both ends included; the load likewise.
-    pub fn sampled(&self, samples: usize) -> (Vec<f64>, Vec<f64>) {
-        let at = |mean: f64, harmonics: &[Complex<f64>], k: usize| {
-            let angle = std::f64::consts::TAU * (k % samples) as f64 / samples as f64;
-            let waves = harmonics.iter().enumerate();
-            mean + waves
-                .map(|(n, a)| (a * Complex::cis((n + 1) as f64 * angle)).im)
-                .sum::<f64>()
-        };
-        let signal = |mean, harmonics| (0..=samples).map(|k| at(mean, harmonics, k)).collect();
-        (
-            signal(self.load_mean_n, &self.load_n),
-            signal(self.approach_mean_m, &self.approach_m),
-        )
-    }
-
     /// Everything that is read from the cycle, with this contact radius (m) and modulus (Pa).
     pub(super) fn values(&self, contact: Option<(f64, Complex<f64>)>) -> Values {
         let mut values = [None; Quantity::ALL.len()];
         let (Some(load), Some(approach)) = (self.load_n.first(), self.approach_m.first()) else {
             return values;
         };
-        let lag = (load * approach.conj()).arg();
         let (_, samples) = self.sampled(SAMPLES);
         let extrema = Extrema::of(&samples);
         let mut set = |quantity: Quantity, value: Option<f64>| {
             values[quantity.place()] = value.filter(|value| value.is_finite());
         };
         set(EnergyLoss, Some(self.energy_loss_j()));
-        set(PhaseLag, Some(lag));
+        set(PhaseLag, Some(self.phase_lag_rad()));
         set(LoadMean, Some(self.load_mean_n));
         set(LoadAmplitude, Some(load.norm()));
         set(ApproachMean, Some(self.approach_mean_m));

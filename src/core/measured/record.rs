@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::bias::Unbiased;
-use super::corrections::Harmonics;
 use super::cycles::{self, Cycle};
 use super::drift::{Drift, DriftModel, Span};
 use super::frequency::{self, Frequency, RecordModel};
@@ -16,6 +15,7 @@ use super::signal::Sampling;
 use super::stabilisation;
 use super::statistics::Estimate;
 use super::{Corrections, HARMONICS, MeasuredError, Signal};
+use crate::cycle::Harmonics;
 use crate::numerics::order::upper_median;
 
 /// What is known beside the record.
@@ -275,7 +275,7 @@ fn drifts(
     };
     for (fit, name) in fits.iter().zip(["load", "approach"]) {
         let samples = fit.residual.len() as f64;
-        let variance = fit.residual.iter().map(|r| r * r).sum::<f64>() / samples;
+        let variance = fit.residual.norm_squared() / samples;
         // By chance once in 1e4, and more often where noise is correlated: then no loop can be read either.
         if fit.amplitude() < 4.5 * (2.0 * variance / samples).sqrt() {
             return Err(MeasuredError::NoOscillation {
@@ -286,7 +286,7 @@ fn drifts(
         let rest = Rest {
             name,
             times_s: &signal.time_s,
-            residual: &fit.residual,
+            residual: fit.residual.as_slice(),
             amplitude: fit.amplitude(),
             hz: model.angular / std::f64::consts::TAU,
             harmonics: model.harmonics,
@@ -294,7 +294,7 @@ fn drifts(
         findings.extend(lines::highest(&rest, sampling));
     }
     Ok([0, 1].map(|which| {
-        let coefficients = &fits[which].coefficients[model.drift_columns(which)];
+        let coefficients = &fits[which].coefficients.as_slice()[model.drift_columns(which)];
         Drift::new(model.drifts[which], coefficients, span)
     }))
 }
