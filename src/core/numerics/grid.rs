@@ -1,4 +1,4 @@
-//! Grids of places.
+//! Grids of places that are evenly spaced in their logarithms, as times and frequencies of a spectrum are.
 
 /// Steps of a grid with this many places per decade between two positive places, one at least.
 fn steps(from: f64, to: f64, per_decade: f64, most: usize) -> usize {
