@@ -162,8 +162,8 @@ fn measured_block(mut table: TableReader<'_>, drive: Option<&Driven>) -> Option<
     let (found, columns) = match drive? {
         Driven::Cycles(drive) => {
             let rows = measured_table::parse(&name, &bytes, (*drive, approach_zero));
-            let (cycles, data, columns) = data_file::accepted(rows, &file, problems)?;
-            (Measurements::new(cycles, data), columns)
+            let (data, columns) = data_file::accepted(rows, &file, problems)?;
+            (Measurements::new(data), columns)
         }
         Driven::History(drive) => {
             let rows = measured_history::parse(&name, &bytes, drive);

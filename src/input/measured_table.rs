@@ -4,7 +4,7 @@ use super::data_file::{Column, DataFile, Table};
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems};
 use crate::drive::{Control, HarmonicDrive};
 use crate::identify::ApproachZero;
-use crate::identify::data::{Datum, MeasuredCycle, Number, TableColumns};
+use crate::identify::data::{Datum, Number, TableColumns};
 use crate::measured::statistics::NORMAL;
 use crate::quantity::Dimension::{
     Angle, AngularFrequency, Energy, Force, Frequency, Length, Stress,
@@ -97,8 +97,8 @@ const SAME_FREQUENCY: f64 = 1e-3;
 
 const EMPTY: &str = "write a number, or leave the cell empty where nothing was measured";
 
-/// Cycles, what was measured of them, and what became of the columns.
-type Found = (Vec<MeasuredCycle>, Vec<Datum>, TableColumns);
+/// What was measured, and what became of the columns.
+type Found = (Vec<Datum>, TableColumns);
 
 /// Reads a table; rows without a `drive_mean` and a `drive_amplitude` of their own are under this drive.
 ///
@@ -130,21 +130,23 @@ pub(super) fn parse(
         has_zero,
         problems: &problems,
     };
-    let (mut cycles, mut data) = (Vec::new(), Vec::new());
+    let mut data = Vec::new();
     for row in 0..rows.table.len() {
         let numbers = rows.numbers(row).filter(|numbers| !numbers.is_empty());
         let Some((cycle, numbers)) = numbers.and_then(|all| Some((rows.cycle(row)?, all))) else {
             continue;
         };
+        let (place, drive) = cycle;
         data.extend(numbers.into_iter().map(|(number, value, error)| Datum {
-            place: cycles.len(),
+            place,
+            drive: Some(drive),
+            row: row + 1,
             number,
             value,
             error,
         }));
-        cycles.push(cycle);
     }
-    rows.refuse_another_drive(&cycles);
+    rows.refuse_another_drive(&data);
     let (read, _) = file.headings(&rows.wanted);
     // Errors of what is set aside are set aside with it.
     let known = MEASURED
@@ -158,7 +160,7 @@ pub(super) fn parse(
         unread,
         rows_passed_over: 0,
     };
-    problems.into_result(Some((cycles, data, columns)))
+    problems.into_result(Some((data, columns)))
 }
 
 /// The amplitude of what is not prescribed.
@@ -334,8 +336,8 @@ impl Rows<'_> {
         Some(self.standard_deviation(row, &prescribed)? / self.number(row, &amplitude)?)
     }
 
-    /// The cycle of a row; `None` where a problem was reported.
-    fn cycle(&self, row: usize) -> Option<MeasuredCycle> {
+    /// Angular frequency (rad/s) and drive of the cycle of a row; `None` where a problem was reported.
+    fn cycle(&self, row: usize) -> Option<(f64, HarmonicDrive)> {
         let angular_frequency_rad_per_s = self.frequency(row)?;
         let [mean, amplitude] = self.drive_columns.map(|column| self.number(row, &column));
         let mean = match self.drive.control() {
@@ -350,11 +352,7 @@ impl Rows<'_> {
             }
             _ => self.drive,
         };
-        Some(MeasuredCycle {
-            angular_frequency_rad_per_s,
-            drive,
-            row: row + 1,
-        })
+        Some((angular_frequency_rad_per_s, drive))
     }
 
     /// The angular frequency (rad/s) of a row.
@@ -382,26 +380,27 @@ impl Rows<'_> {
     }
 
     /// Refuses drives that are nothing like the one of the file.
-    fn refuse_another_drive(&self, cycles: &[MeasuredCycle]) {
+    fn refuse_another_drive(&self, data: &[Datum]) {
         let [mean, _] = self.drive_columns;
-        let is_like = |cycle: &MeasuredCycle| {
-            let ratio = cycle.drive.mean() / self.drive.mean();
+        let is_like = |drive: HarmonicDrive| {
+            let ratio = drive.mean() / self.drive.mean();
             (ANOTHER_DRIVE.recip()..=ANOTHER_DRIVE).contains(&ratio)
         };
-        let (Some(first), Some(mean)) = (cycles.first(), self.place_of(&mean)) else {
+        let mut drives = data
+            .iter()
+            .filter_map(|datum| Some((datum.row, datum.drive?)));
+        let (Some((row, first)), Some(mean)) = (drives.clone().next(), self.place_of(&mean)) else {
             return;
         };
-        if cycles.iter().any(is_like) || self.drive.mean() == 0.0 {
+        if drives.any(|(_, drive)| is_like(drive)) || self.drive.mean() == 0.0 {
             return;
         }
         let message = format!(
             "the table was measured under a mean of {:e}, and [drive] has {:e} (SI units)",
-            first.drive.mean(),
+            first.mean(),
             self.drive.mean()
         );
-        let report = self
-            .problems
-            .at(&self.table.cell(first.row - 1, mean), message);
+        let report = self.problems.at(&self.table.cell(row - 1, mean), message);
         report.help("give [drive] the mean and amplitude of the measurement");
     }
 }
@@ -441,10 +440,11 @@ mod tests {
     fn columns_are_read_in_their_units_with_errors_and_gaps() {
         let text = "frequency_hz,energy_loss_uJ,energy_loss_error_uJ,phase_lag_deg,status,drive_mean,drive_amplitude\n\
                     1,2,0.1,,converged,10,5\n2,,,,failed,10,5\n4,3,,9,converged,11,4\n";
-        let (cycles, data, columns) = under_load(text).unwrap();
-        assert_eq!(cycles.len(), 2);
-        assert_eq!(cycles[0].angular_frequency_rad_per_s, std::f64::consts::TAU);
-        assert_eq!((cycles[1].row, cycles[1].drive.mean()), (3, 11.0));
+        let (data, columns) = under_load(text).unwrap();
+        assert_eq!((data[0].row, data[0].place), (1, std::f64::consts::TAU));
+        let of_second = (data[1].row, data[1].drive.unwrap().mean());
+        assert_eq!(of_second, (3, 11.0));
+        assert_eq!(data[2].row, 3);
         let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
         assert!(near(data[0].value, 2e-6) && near(data[0].error.unwrap(), 1e-7));
         assert_eq!((data.len(), data[1].error), (3, None));
@@ -459,11 +459,12 @@ mod tests {
     #[test]
     fn common_words_are_read_and_every_other_heading_is_kept_for_the_report() {
         let text = "Frequency (Hz);Loss (uJ);Phase (deg);Max depth (um);Fase fault (deg);Remark\n1;2;9;30;None;a\n2;2;None;31;1;b\n";
-        let (cycles, data, columns) = under_load(text).unwrap();
+        let (data, columns) = under_load(text).unwrap();
         let approach = Number::OfCycle(Quantity::ApproachMax);
         let numbers: Vec<Number> = data.iter().map(|datum| datum.number).collect();
         assert_eq!(numbers, [LOSS, PHASE, approach, LOSS, approach]);
-        assert_eq!(cycles.len(), 2);
+        let rows: Vec<usize> = data.iter().map(|datum| datum.row).collect();
+        assert_eq!(rows, [1, 1, 1, 2, 2]);
         assert_eq!(columns.unread, ["Fase fault (deg)", "Remark"]);
     }
 
@@ -473,7 +474,7 @@ mod tests {
                     phase_lag_standard_error_rad,storage_modulus_pa,approach_max_m,approach_amplitude_m,approach_amplitude_error_m,\
                     load_amplitude_n,cycles_measured,points_per_cycle,harmonic_2\n\
                     1,10,5,1e-6,1e-8,0.2,2e-3,5e-4,1e7,1e-5,1e-6,1e-8,5,12,80,0.01\n";
-        let (_, data, columns) = under_load(text).unwrap();
+        let (data, columns) = under_load(text).unwrap();
         assert_eq!(data.len(), 2, "{data:?}");
         // The model is driven by the amplitude as measured, with its error: that of the answer holds it too.
         let with_drive = text
@@ -482,7 +483,7 @@ mod tests {
                 "load_amplitude_n,load_amplitude_error_n,",
             )
             .replace(",5,12,", ",5,0.075,12,");
-        let (_, of_both, _) = under_load(&with_drive).unwrap();
+        let (of_both, _) = under_load(&with_drive).unwrap();
         let [own, both] = [data[1], of_both[1]].map(|datum| datum.error.unwrap() / datum.value);
         assert!((both / own.hypot(0.015 / NORMAL) - 1.0).abs() < 1e-12);
         assert_eq!(of_both[0], data[0]);
@@ -506,7 +507,7 @@ mod tests {
         );
         // The same numbers in a table of one's own: standard deviations where they are named so.
         let own = text.replace("points_per_cycle", "points");
-        let (_, data, _) = under_load(&own).unwrap();
+        let (data, _) = under_load(&own).unwrap();
         assert!(data[0].number == PHASE && near(data[0].error.unwrap(), 5e-4));
         assert!(
             data.iter()
@@ -518,7 +519,7 @@ mod tests {
     fn approaches_whose_zero_is_unknown_are_set_aside_and_amplitudes_are_not() {
         let text = "frequency_hz,phase_lag_rad,approach_amplitude_m,approach_max_m,approach_min_m\n1,0.2,1e-6,1e-5,8e-6\n";
         let numbers = |zero| {
-            let (_, data, columns) = parsed(text, zero).unwrap();
+            let (data, columns) = parsed(text, zero).unwrap();
             (data.len(), columns.set_aside)
         };
         assert_eq!(numbers(None), (4, Vec::new()));

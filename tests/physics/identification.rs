@@ -10,7 +10,7 @@ use std::time::Instant;
 use crate::common::solids::Random;
 use contact_dma::drive::HarmonicDrive;
 use contact_dma::engine::{EngineKind, SolverPlan};
-use contact_dma::identify::data::{Datum, MeasuredCycle, Measurements, Number};
+use contact_dma::identify::data::{Datum, Measurements, Number};
 use contact_dma::identify::{Driven, Identified, IdentifyError, IdentifyPlan, identify};
 use contact_dma::indenter::{Cone, Indenter, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
@@ -90,25 +90,21 @@ impl Experiment {
             .angular_frequencies_rad_per_s(frequencies())
             .unwrap();
         let records = sweep.solve().unwrap().records;
-        let mut cycles = Vec::new();
         let mut data = Vec::new();
-        for (place, record) in records.iter().enumerate() {
-            cycles.push(MeasuredCycle {
-                angular_frequency_rad_per_s: record.angular_frequency_rad_per_s,
-                drive,
-                row: place + 1,
-            });
+        for (row, record) in (1..).zip(&records) {
             for quantity in &self.quantities {
                 let exact = quantity.of(record.result.as_ref().unwrap()).unwrap();
                 data.push(Datum {
-                    place,
+                    place: record.angular_frequency_rad_per_s,
+                    drive: Some(drive),
+                    row,
                     number: Number::OfCycle(*quantity),
                     value: exact * (1.0 + self.noise * random.normal()),
                     error: self.with_errors.then_some(self.noise * exact),
                 });
             }
         }
-        let measurements = Measurements::new(cycles, data).unwrap();
+        let measurements = Measurements::new(data).unwrap();
         IdentifyPlan::new(POISSON, indenter, Driven::Cycles(drive), measurements)
     }
 }

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use contact_dma::contact::half_space::layer::Base;
 use contact_dma::drive::{Control, HarmonicDrive, Segment, SegmentedDrive};
 use contact_dma::engine::SolverPlan;
-use contact_dma::identify::data::{Datum, MeasuredCycle, Measurements, Number, Reading};
+use contact_dma::identify::data::{Datum, Measurements, Number, Reading};
 use contact_dma::identify::{CellError, Driven, Identified, IdentifyPlan, identify};
 use contact_dma::indenter::{Indenter, Sphere};
 use contact_dma::material::{Compressibility, Material, ModulusKind, Relaxation, RelaxationBranch};
@@ -96,22 +96,19 @@ fn of_cycles(drive: HarmonicDrive, with: &With) -> IdentifyPlan {
         Quantity::PhaseLag,
         Quantity::ApproachMax,
     ];
-    let (mut cycles, mut data) = (Vec::new(), Vec::new());
-    for (place, record) in records.iter().enumerate() {
-        cycles.push(MeasuredCycle {
-            angular_frequency_rad_per_s: record.angular_frequency_rad_per_s,
-            drive,
-            row: place + 1,
-        });
+    let mut data = Vec::new();
+    for (row, record) in (1..).zip(&records) {
         let result = record.result.as_ref().unwrap();
         data.extend(quantities.map(|quantity| Datum {
-            place,
+            place: record.angular_frequency_rad_per_s,
+            drive: Some(drive),
+            row,
             number: Number::OfCycle(quantity),
             value: quantity.of(result).unwrap(),
             error: None,
         }));
     }
-    let measurements = Measurements::new(cycles, data).unwrap();
+    let measurements = Measurements::new(data).unwrap();
     with.clone()
         .plan(Driven::Cycles(drive), measurements, IdentifyPlan::CYCLE)
 }

@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use crate::drive::{HarmonicDrive, SegmentedDrive};
-use crate::identify::data::{Datum, MeasuredCycle, Measurements, Number};
+use crate::identify::data::{Datum, Measurements, Number};
 use crate::identify::model::Model;
 use crate::identify::{Driven, Identified, IdentifyError, IdentifyPlan, history};
 
@@ -32,7 +32,7 @@ pub fn curves(
     if let Driven::History(drive) = &plan.drive {
         return Ok(vec![of_history(plan, drive, found, interrupt)?]);
     }
-    let Some(drive) = one_drive(plan.measurements.cycles()) else {
+    let Some(drive) = one_drive(plan.measurements.data()) else {
         return Ok(Vec::new());
     };
     let (low, high) = found.window_rad_per_s;
@@ -40,22 +40,18 @@ pub fn curves(
     let omega = |k: usize| low * (high / low).powf(k as f64 / count as f64);
     let omegas: Vec<f64> = (0..=count).map(omega).collect();
     let measured = plan.measurements.numbers();
-    let cycle = |(place, omega): (usize, &f64)| MeasuredCycle {
-        angular_frequency_rad_per_s: *omega,
-        drive,
-        row: place + 1,
-    };
-    let data = (0..omegas.len()).flat_map(|place| {
-        measured.iter().map(move |number| Datum {
+    let data = (1..).zip(&omegas).flat_map(|(row, &place)| {
+        measured.iter().map(move |&number| Datum {
             place,
-            number: *number,
+            drive: Some(drive),
+            row,
+            number,
             value: 1.0,
             error: None,
         })
     });
-    let cycles = omegas.iter().enumerate().map(cycle);
     let dense = IdentifyPlan {
-        measurements: Measurements::unchecked(cycles.collect(), data.collect()),
+        measurements: Measurements::unchecked(data.collect()),
         ..plan.clone()
     };
     let numbers = Model::new(&dense, interrupt).numbers(&found.relaxation)?;
@@ -93,11 +89,12 @@ fn of_history(
 }
 
 /// The drive of all cycles, as far as they have one.
-fn one_drive(cycles: &[MeasuredCycle]) -> Option<HarmonicDrive> {
-    let first = cycles.first()?.drive;
+fn one_drive(data: &[Datum]) -> Option<HarmonicDrive> {
+    let first = data.first()?.drive?;
     let near = |a: f64, b: f64| (a - b).abs() <= ONE_DRIVE * b.abs();
-    let is_like = |cycle: &MeasuredCycle| {
-        near(cycle.drive.mean(), first.mean()) && near(cycle.drive.amplitude(), first.amplitude())
+    let is_like = |drive: HarmonicDrive| {
+        near(drive.mean(), first.mean()) && near(drive.amplitude(), first.amplitude())
     };
-    cycles.iter().all(is_like).then_some(first)
+    let mut drives = data.iter().filter_map(|datum| datum.drive);
+    drives.all(is_like).then_some(first)
 }

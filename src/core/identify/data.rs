@@ -31,14 +31,6 @@ impl Number {
     }
 }
 
-/// One instant of a measured history: the mean of the rows about it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Instant {
-    pub time_s: f64,
-    /// The first of its rows, from 1.
-    pub row: usize,
-}
-
 /// One row of a measured history.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reading {
@@ -56,21 +48,15 @@ pub struct Reading {
 /// what an instrument takes a thousand times a second says no more about a time of minutes.
 const ONE_INSTANT: f64 = 0.05;
 
-/// One measured cycle.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeasuredCycle {
-    pub angular_frequency_rad_per_s: f64,
-    /// The drive it was measured under.
-    pub drive: HarmonicDrive,
-    /// The row of the table, from 1.
-    pub row: usize,
-}
-
-/// One number of a cycle.
+/// One number of a cycle, or of an instant of a history.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Datum {
-    /// Which of the cycles, or of the instants.
-    pub place: usize,
+    /// Angular frequency (rad/s) of the cycle, or time (s) of the instant.
+    pub place: f64,
+    /// The drive that the cycle was measured under; `None` of an instant, whose history has one.
+    pub drive: Option<HarmonicDrive>,
+    /// The row of the table, from 1 below the header; of an instant the first of its rows.
+    pub row: usize,
     pub number: Number,
     /// In SI units.
     pub value: f64,
@@ -94,9 +80,6 @@ pub struct TableColumns {
 /// All that was measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurements {
-    /// What the numbers belong to: cycles, or instants of a history.
-    cycles: Vec<MeasuredCycle>,
-    instants: Vec<Instant>,
     data: Vec<Datum>,
     /// What was left out, and why.
     notes: Vec<String>,
@@ -111,13 +94,60 @@ const RANGE_PER_S: (f64, f64) = (1e-15, 1e15);
 /// A column that varies by less than this over all frequencies is flat, whatever its errors.
 const LEAST_SPREAD: f64 = 0.01;
 
+impl Datum {
+    /// The angular frequency (rad/s) that it speaks of: that of its cycle, or one over its time.
+    pub fn angular_frequency(&self) -> f64 {
+        match self.drive {
+            Some(_) => self.place,
+            None => 1.0 / self.place,
+        }
+    }
+
+    /// The time (s) that it speaks of: of its instant, or one over the angular frequency of its cycle.
+    pub fn time_s(&self) -> f64 {
+        match self.drive {
+            Some(_) => 1.0 / self.place,
+            None => self.place,
+        }
+    }
+
+    /// Where it is, for messages: "3 rad/s" or "20 s".
+    pub fn place_in_words(&self) -> String {
+        let dimension = match self.drive {
+            Some(_) => Dimension::AngularFrequency,
+            None => Dimension::Time,
+        };
+        format_human(self.place, dimension, 4)
+    }
+
+    /// That the model has no such number.
+    pub(super) fn undefined(&self) -> IdentifyError {
+        IdentifyError::Undefined {
+            place: self.place_in_words(),
+            column: self.number.column(),
+        }
+    }
+}
+
 impl Measurements {
-    /// Measured numbers; those that a measurement cannot tell from nothing are left out, which the notes say.
+    /// Measured numbers of cycles, those of one cycle one after another; those that a measurement cannot tell from nothing are left out, which the notes say.
     ///
     /// # Errors
     /// [`IdentifyError`]: numbers that no solid can have, all at one frequency, or none that varies.
-    pub fn new(cycles: Vec<MeasuredCycle>, all: Vec<Datum>) -> Result<Self, IdentifyError> {
-        Self::checked(cycles, Vec::new(), all)
+    pub fn new(all: Vec<Datum>) -> Result<Self, IdentifyError> {
+        let mut measured = Self::unchecked(Vec::new());
+        for datum in all {
+            match usable(&datum)? {
+                None => measured.data.push(datum),
+                Some(why) => measured.notes.push(format!(
+                    "row {}: {} left out, {why}",
+                    datum.row,
+                    datum.number.column()
+                )),
+            }
+        }
+        measured.check()?;
+        Ok(measured)
     }
 
     /// The same of one history under a drive, from its rows in the order of time. Rows that are one instant are averaged, which the
@@ -140,7 +170,7 @@ impl Measurements {
                 (since_s.max(f64::MIN_POSITIVE).ln() / ONE_INSTANT.ln_1p()).floor(),
             )
         };
-        let (mut instants, mut data) = (Vec::new(), Vec::new());
+        let mut data = Vec::new();
         // An instant at first touch says nothing: whatever the body is, nothing has happened yet.
         let rows: Vec<&Reading> = rows.iter().filter(|row| row.time_s > 0.0).collect();
         for same in rows.chunk_by(|a, b| instant_of(a) == instant_of(b)) {
@@ -149,71 +179,38 @@ impl Measurements {
                 |value: fn(&Reading) -> f64| same.iter().map(|row| value(row)).sum::<f64>() / count;
             let squares: Option<f64> = same.iter().map(|row| row.error.map(|e| e * e)).sum();
             data.push(Datum {
-                place: instants.len(),
+                place: mean(|row| row.time_s),
+                drive: None,
+                row: same.first().map_or(0, |row| row.row),
                 number,
                 value: mean(|row| row.value),
                 error: squares.map(|squares| squares.sqrt() / count),
             });
-            instants.push(Instant {
-                time_s: mean(|row| row.time_s),
-                row: same.first().map_or(0, |row| row.row),
-            });
         }
-        let (read, kept) = (rows.len(), instants.len());
+        let (read, kept) = (rows.len(), data.len());
         let averaged =
             (kept < read).then(|| format!("{read} rows are averaged to {kept} instants"));
-        let mut measured = Self::checked(Vec::new(), instants, data)?;
+        let mut measured = Self::new(data)?;
         measured.notes.splice(0..0, averaged);
         Ok(measured)
     }
 
-    fn checked(
-        cycles: Vec<MeasuredCycle>,
-        instants: Vec<Instant>,
-        all: Vec<Datum>,
-    ) -> Result<Self, IdentifyError> {
-        let mut measured = Self {
-            cycles,
-            instants,
-            ..Self::unchecked(Vec::new(), Vec::new())
-        };
-        for datum in all {
-            let row = measured.row_of(&datum);
-            match usable(&datum, row)? {
-                None => measured.data.push(datum),
-                Some(why) => measured.notes.push(format!(
-                    "row {row}: {} left out, {why}",
-                    datum.number.column()
-                )),
-            }
-        }
-        measured.check()?;
-        Ok(measured)
-    }
-
     /// What is no measurement but a list of what is to be computed.
-    pub(super) fn unchecked(cycles: Vec<MeasuredCycle>, data: Vec<Datum>) -> Self {
+    pub(super) fn unchecked(data: Vec<Datum>) -> Self {
         Self {
-            cycles,
-            instants: Vec::new(),
             data,
             notes: Vec::new(),
         }
     }
 
-    /// The cycles; none of a history.
-    pub fn cycles(&self) -> &[MeasuredCycle] {
-        &self.cycles
-    }
-
     /// Whether the numbers are those of a history.
     pub fn is_history(&self) -> bool {
-        !self.instants.is_empty()
+        self.data.iter().any(|datum| datum.drive.is_none())
     }
 
-    /// How many cycles or instants there are.
-    pub fn places(&self) -> usize {
-        self.cycles.len() + self.instants.len()
+    /// The numbers of every cycle, or of every instant.
+    pub fn places(&self) -> impl Iterator<Item = &[Datum]> {
+        self.data.chunk_by(|a, b| a.row == b.row)
     }
 
     pub fn data(&self) -> &[Datum] {
@@ -237,59 +234,9 @@ impl Measurements {
         all.filter(measured).collect()
     }
 
-    /// The angular frequency (rad/s) of a datum's cycle, or the time (s) of its instant.
-    pub(super) fn place_of(&self, datum: &Datum) -> f64 {
-        let cycle = self.cycles.get(datum.place);
-        let instant = self.instants.get(datum.place);
-        cycle
-            .map(|cycle| cycle.angular_frequency_rad_per_s)
-            .or(instant.map(|instant| instant.time_s))
-            .unwrap_or(f64::NAN)
-    }
-
-    /// The row of a datum in the table, from 1 below the header; of a history the first of the rows that are one instant.
-    pub fn row_of(&self, datum: &Datum) -> usize {
-        let of_cycle = self.cycles.get(datum.place).map(|cycle| cycle.row);
-        let of_instant = self.instants.get(datum.place).map(|instant| instant.row);
-        of_cycle.or(of_instant).unwrap_or(0)
-    }
-
-    /// The angular frequency (rad/s) that a datum speaks of: that of its cycle, or one over its time.
-    pub fn angular_frequency(&self, datum: &Datum) -> f64 {
-        match self.is_history() {
-            true => 1.0 / self.place_of(datum),
-            false => self.place_of(datum),
-        }
-    }
-
-    /// The time (s) of a datum: of its instant, or one over the angular frequency of its cycle.
-    pub fn time_s(&self, datum: &Datum) -> f64 {
-        match self.is_history() {
-            true => self.place_of(datum),
-            false => 1.0 / self.place_of(datum),
-        }
-    }
-
-    /// Where a datum is, for messages: "3 rad/s" or "20 s".
-    pub fn place_in_words(&self, datum: &Datum) -> String {
-        let dimension = match self.is_history() {
-            true => Dimension::Time,
-            false => Dimension::AngularFrequency,
-        };
-        format_human(self.place_of(datum), dimension, 4)
-    }
-
-    /// That the model has no such number.
-    pub(super) fn undefined(&self, datum: &Datum) -> IdentifyError {
-        IdentifyError::Undefined {
-            place: self.place_in_words(datum),
-            column: datum.number.column(),
-        }
-    }
-
     /// Lowest and highest angular frequency (rad/s).
     pub fn window_rad_per_s(&self) -> (f64, f64) {
-        let omegas = self.data.iter().map(|datum| self.angular_frequency(datum));
+        let omegas = self.data.iter().map(Datum::angular_frequency);
         omegas.fold((f64::INFINITY, 0.0), |(low, high), omega| {
             (low.min(omega), high.max(omega))
         })
@@ -304,17 +251,16 @@ impl Measurements {
             });
         }
         let (low, high) = RANGE_PER_S;
-        let is_outside = |datum: &&Datum| !(low..=high).contains(&self.angular_frequency(datum));
+        let is_outside = |datum: &&Datum| !(low..=high).contains(&datum.angular_frequency());
         if let Some(datum) = self.data.iter().find(is_outside) {
             let (what, unit) = match self.is_history() {
                 true => ("time", "s"),
                 false => ("angular frequency", "rad/s"),
             };
-            let (row, value) = (self.row_of(datum), self.place_of(datum));
             return Err(IdentifyError::OutOfRange {
-                row,
+                row: datum.row,
                 what,
-                value,
+                value: datum.place,
                 low,
                 high,
                 unit,
@@ -355,11 +301,11 @@ impl Measurements {
 }
 
 /// Why a number is left out; `None` where it is of use.
-fn usable(datum: &Datum, row: usize) -> Result<Option<&'static str>, IdentifyError> {
+fn usable(datum: &Datum) -> Result<Option<&'static str>, IdentifyError> {
     let refused = |why| {
         Err(IdentifyError::Impossible {
             column: datum.number.column(),
-            row,
+            row: datum.row,
             value: datum.value,
             why,
         })

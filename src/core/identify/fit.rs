@@ -269,15 +269,14 @@ fn contradiction(plan: &IdentifyPlan, branches: usize, missed: &[f64]) -> Option
     if rms < CONTRADICTION {
         return None;
     }
-    let measured = &plan.measurements;
-    let data = measured.data().iter().zip(missed);
+    let data = plan.measurements.data().iter().zip(missed);
     let (datum, off) = data.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
     Some(IdentifyError::Contradiction {
         branches,
         may_have_more: plan.branches.is_some_and(|asked| asked < MOST_BRANCHES),
-        row: measured.row_of(datum),
+        row: datum.row,
         misfit_percent: format!("{:.0}", 100.0 * rms),
-        place: measured.place_in_words(datum),
+        place: datum.place_in_words(),
         column: datum.number.column(),
         times: format!("{:.2e}", off.exp()),
     })

@@ -13,7 +13,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::drive::{Control, Schedule, SegmentedDrive, Steps};
-use crate::identify::data::Number;
+use crate::identify::data::{Datum, Number};
 use crate::identify::series::Point;
 use crate::identify::{Driven, IdentifyError, IdentifyPlan};
 use crate::indenter::Indenter;
@@ -99,7 +99,7 @@ impl<'a> LinearHistory<'a> {
     /// The history of a plan; `None` where its data lie outside the drive.
     pub(super) fn new(plan: &'a IdentifyPlan, drive: &SegmentedDrive) -> Option<Self> {
         let times: Vec<f64> = (plan.measurements.data().iter())
-            .map(|datum| plan.measurements.time_s(datum))
+            .map(Datum::time_s)
             .collect();
         let chosen = Steps::Chosen {
             shortest_time_s: None,
@@ -229,12 +229,12 @@ pub(super) fn numbers(
 ) -> Result<Vec<f64>, IdentifyError> {
     let outcome = followed(plan, drive, series, interrupt)?;
     let data = plan.measurements.data();
-    let times: Vec<f64> = data.iter().map(|d| plan.measurements.time_s(d)).collect();
+    let times: Vec<f64> = data.iter().map(Datum::time_s).collect();
     let (_, value) = response(drive.control());
     let found = values_at(drive, &outcome.rows, &times, value).into_iter();
     let defined = found
         .zip(data)
-        .map(|(number, datum)| number.ok_or_else(|| plan.measurements.undefined(datum)));
+        .map(|(number, datum)| number.ok_or_else(|| datum.undefined()));
     defined.collect()
 }
 

@@ -148,8 +148,8 @@ pub(super) fn judged(
         // A row of derivatives is in standard deviations of its datum.
         let gradient = derivatives.row(k).transpose() * error;
         Compared {
-            place: measured.place_of(datum),
-            row: measured.row_of(datum),
+            place: datum.place,
+            row: datum.row,
             number: datum.number,
             measured: datum.value,
             error: noise.own(k) * scatter.of_data * datum.value,

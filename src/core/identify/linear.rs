@@ -10,8 +10,8 @@
 
 use num_complex::Complex;
 
-use crate::drive::Control;
-use crate::identify::data::{MeasuredCycle, Number};
+use crate::drive::{Control, HarmonicDrive};
+use crate::identify::data::Number;
 use crate::indenter::Indenter;
 use crate::material::{Compressibility, Creep};
 use crate::sweep::record::error_bars::Quantity;
@@ -37,16 +37,17 @@ pub(super) struct LinearCycle<'a> {
 
 impl<'a> LinearCycle<'a> {
     pub(super) fn new(
-        cycle: &MeasuredCycle,
+        (angular_frequency_rad_per_s, drive): (f64, &HarmonicDrive),
         indenter: &dyn Indenter,
         (compressibility, indenter_material): (&'a Compressibility, Option<&Creep>),
         equilibrium_pa: f64,
     ) -> Self {
-        let drive = &cycle.drive;
         let indenter_material = indenter_material.map_or((0.0.into(), 0.0), |creep| {
-            let omega = cycle.angular_frequency_rad_per_s;
             let at_rest = creep.equilibrium_compliance().unwrap_or(0.0);
-            (creep.complex_compliance(omega), at_rest)
+            (
+                creep.complex_compliance(angular_frequency_rad_per_s),
+                at_rest,
+            )
         });
         let at_rest = compressibility.contact_modulus(equilibrium_pa.into()).re;
         let compliance = at_rest.recip() + indenter_material.1;
@@ -63,7 +64,7 @@ impl<'a> LinearCycle<'a> {
         };
         Self {
             control: drive.control(),
-            angular_frequency_rad_per_s: cycle.angular_frequency_rad_per_s,
+            angular_frequency_rad_per_s,
             mean,
             amplitude: drive.amplitude(),
             compressibility,

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use rayon::prelude::*;
 
 use crate::engine::EngineKind;
-use crate::identify::data::Number;
+use crate::identify::data::{Datum, Number};
 use crate::identify::identified::CellError;
 use crate::identify::{Driven, IdentifyError, IdentifyPlan, history};
 use crate::material::{MaterialError, Relaxation};
@@ -107,18 +107,19 @@ impl<'a> Model<'a> {
             .iter()
             .map(|series| self.setup(series))
             .collect::<Result<_, _>>()?;
-        let cycles = self.plan.measurements.cycles().len();
-        let solved: Vec<Option<CaseResult>> = (0..all.len() * cycles)
-            .into_par_iter()
-            .map(|place| Ok(Some(self.cycle(&setups[place / cycles], place % cycles)?)))
+        let cycles: Vec<&[Datum]> = self.plan.measurements.places().collect();
+        let of_each =
+            (setups.par_iter()).flat_map(|setup| cycles.par_iter().map(move |data| (setup, data)));
+        let solved: Vec<Option<CaseResult>> = of_each
+            .map(|(setup, data)| Ok(Some(self.cycle(setup, &data[0])?)))
             .collect::<Result<_, IdentifyError>>()?;
-        let each = solved.chunks(cycles);
+        let each = solved.chunks(cycles.len());
         each.map(|of_series| {
             let numbers = self.of_cycles(of_series).into_iter();
             let data = self.plan.measurements.data();
-            let defined = numbers.zip(data).map(|(number, datum)| {
-                number.ok_or_else(|| self.plan.measurements.undefined(datum))
-            });
+            let defined = numbers
+                .zip(data)
+                .map(|(number, datum)| number.ok_or_else(|| datum.undefined()));
             defined.collect()
         })
         .collect()
@@ -134,16 +135,14 @@ impl<'a> Model<'a> {
             return Ok(numbers.map(Some).collect());
         }
         let setup = self.setup(series)?;
-        let cycles = self.plan.measurements.cycles().len();
-        let solved: Vec<_> = (0..cycles)
-            .into_par_iter()
-            .map(|cycle| self.cycle(&setup, cycle))
-            .collect();
+        let cycles: Vec<&[Datum]> = self.plan.measurements.places().collect();
+        let solved = cycles.par_iter().map(|data| self.cycle(&setup, &data[0]));
+        let solved: Vec<_> = solved.collect();
         let is_lost = |cycle: &Result<_, _>| matches!(cycle, Err(IdentifyError::NoCycle { .. }));
         let lost = solved.iter().filter(|cycle| is_lost(cycle)).count();
         let found = solved.into_iter().map(|cycle| match cycle {
             // Of a few it is no matter; where most are lost nothing is learnt.
-            Err(IdentifyError::NoCycle { .. }) if 2 * lost <= cycles => Ok(None),
+            Err(IdentifyError::NoCycle { .. }) if 2 * lost <= cycles.len() => Ok(None),
             other => other.map(Some),
         });
         Ok(self.of_cycles(&found.collect::<Result<Vec<_>, _>>()?))
@@ -151,9 +150,10 @@ impl<'a> Model<'a> {
 
     /// The corrected number of every datum; `None` where its cycle has none or was not found.
     fn of_cycles(&self, cycles: &[Option<CaseResult>]) -> Vec<Option<f64>> {
-        let data = self.plan.measurements.data().iter().enumerate();
-        let numbers = data.map(|(place, datum)| {
-            let cycle = cycles[datum.place].as_ref()?;
+        let places = self.plan.measurements.places().zip(cycles);
+        let data = places.flat_map(|(data, cycle)| data.iter().map(move |datum| (datum, cycle)));
+        let numbers = data.enumerate().map(|(place, (datum, cycle))| {
+            let cycle = cycle.as_ref()?;
             let first = cycle.analysis.harmonics.first();
             let number = match datum.number {
                 Number::OfCycle(quantity) => quantity.of(cycle)?,
@@ -171,14 +171,15 @@ impl<'a> Model<'a> {
     }
 
     fn setup(&self, series: &Relaxation) -> Result<Setup, IdentifyError> {
-        let measured = self.plan.measurements.cycles();
-        let none = IdentifyError::NoFit("no cycle was measured");
-        let first = measured.first().ok_or(none)?;
-        let drive = first.drive;
+        let measured = self.plan.measurements.data();
+        let first = measured
+            .iter()
+            .find_map(|datum| Some((datum, datum.drive?)));
+        let (first, drive) = first.ok_or(IdentifyError::NoFit("no cycle was measured"))?;
         // A trial that the bulk modulus does not allow.
         let material = self.plan.material(series).map_err(|error| match error {
             MaterialError::SmallBulkModulus { .. } => IdentifyError::NoCycle {
-                angular_frequency_rad_per_s: first.angular_frequency_rad_per_s,
+                angular_frequency_rad_per_s: first.place,
                 why: error.to_string(),
             },
             error => error.into(),
@@ -186,23 +187,22 @@ impl<'a> Model<'a> {
         let contact = self.plan.contact.with_material(Arc::new(material));
         let mut plan = SweepPlan::of(contact, self.plan.solver, drive);
         plan.cycle = self.plan.cycle;
-        let omegas = measured
-            .iter()
-            .map(|cycle| cycle.angular_frequency_rad_per_s);
+        let omegas = measured.iter().map(|datum| datum.place);
         plan.angular_frequencies_rad_per_s = omegas.collect();
         plan.angular_frequencies_rad_per_s.sort_by(f64::total_cmp);
         plan.angular_frequencies_rad_per_s.dedup();
         Ok(Setup::new(plan)?)
     }
 
-    fn cycle(&self, setup: &Setup, cycle: usize) -> Result<CaseResult, IdentifyError> {
-        let measured = &self.plan.measurements.cycles()[cycle];
+    /// The cycle that a number was measured of.
+    fn cycle(&self, setup: &Setup, measured: &Datum) -> Result<CaseResult, IdentifyError> {
+        let base = setup.plan().base.clone();
         let case = Case {
             index: 0,
-            angular_frequency_rad_per_s: measured.angular_frequency_rad_per_s,
+            angular_frequency_rad_per_s: measured.place,
             condition: Condition {
-                drive: measured.drive,
-                ..setup.plan().base.clone()
+                drive: measured.drive.unwrap_or(base.drive),
+                ..base
             },
         };
         let mut record = setup.numbers(&case, self.interrupt);
@@ -218,7 +218,7 @@ impl<'a> Model<'a> {
         let record = record.ok_or(IdentifyError::Interrupted)?;
         let (message, status) = (record.message, record.status);
         record.result.ok_or_else(|| IdentifyError::NoCycle {
-            angular_frequency_rad_per_s: measured.angular_frequency_rad_per_s,
+            angular_frequency_rad_per_s: measured.place,
             why: message.unwrap_or_else(|| status.name().to_owned()),
         })
     }

@@ -1,7 +1,6 @@
 //! The search on the linearised contact: series of every number of branches.
 
 use nalgebra::{DMatrix, DVector};
-use num_complex::Complex;
 
 use crate::drive::Control;
 use crate::identify::data::{Datum, Measurements, Number};
@@ -87,9 +86,13 @@ impl Linearised<'_> {
             &self.plan.contact.material.compressibility,
             indenter_material.as_ref(),
         );
-        let cycles = self.plan.measurements.cycles().iter();
-        let cycles = cycles.map(|cycle| LinearCycle::new(cycle, indenter, bodies, equilibrium_pa));
-        self.cycles = cycles.collect();
+        let places = self.plan.measurements.places();
+        let cycles = places.filter_map(|data| Some((data[0].place, data[0].drive?)));
+        self.cycles = cycles
+            .map(|(omega, drive)| {
+                LinearCycle::new((omega, &drive), indenter, bodies, equilibrium_pa)
+            })
+            .collect();
     }
 
     /// Logarithms of all numbers without their factors.
@@ -102,15 +105,13 @@ impl Linearised<'_> {
             return numbers.into_iter().map(ln).collect();
         }
         let equilibrium_pa = point.equilibrium_pa();
-        let cycles = self.cycles.iter();
-        let moduli: Vec<Complex<f64>> = cycles
-            .map(|cycle| point.complex_modulus(cycle.angular_frequency_rad_per_s))
-            .collect();
-        let number = |datum: &Datum| {
-            let (cycle, modulus) = (&self.cycles[datum.place], moduli[datum.place]);
-            ln(cycle.number(datum.number, equilibrium_pa, modulus))
-        };
-        data.iter().map(number).collect()
+        let cycles = self.cycles.iter().zip(self.measured().places());
+        let numbers = cycles.flat_map(|(cycle, data)| {
+            let modulus = point.complex_modulus(cycle.angular_frequency_rad_per_s);
+            let number = move |datum: &Datum| cycle.number(datum.number, equilibrium_pa, modulus);
+            data.iter().map(number)
+        });
+        numbers.map(ln).collect()
     }
 
     /// Logarithms of computed over measured numbers.

@@ -124,7 +124,7 @@ impl IdentifyReport<'_> {
         format!(
             "Measured: {} numbers of {} {of} ({}).",
             measured.data().len(),
-            measured.places(),
+            measured.places().count(),
             listed(&columns)
         )
     }

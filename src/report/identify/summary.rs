@@ -3,6 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::{IdentifyReport, dimension, tables};
+use crate::identify::data::Datum;
 use crate::identify::{CellError, Identified, Knowledge};
 
 /// The summary as an object; what is undefined is null.
@@ -97,9 +98,7 @@ fn worst(found: &Identified) -> Option<Value> {
 fn moduli(report: &IdentifyReport<'_>) -> Vec<Map<String, Value>> {
     let measured = &report.plan.measurements;
     let data = measured.data().iter();
-    let mut omegas: Vec<f64> = data
-        .map(|datum| measured.angular_frequency(datum))
-        .collect();
+    let mut omegas: Vec<f64> = data.map(Datum::angular_frequency).collect();
     omegas.sort_by(f64::total_cmp);
     omegas.dedup();
     let moduli = omegas.into_iter().map(|omega| {
