@@ -67,6 +67,7 @@
 //! | [`simulation`] | one drive history from its beginning to its end |
 //! | [`measured`] | measured loops: frequency, drift, cycles, corrections, moduli; uses the exact model for the bias of the small-amplitude formula |
 //! | [`identify`] | a material from measured cycles: the sweep as a forward model |
+//! | [`figures`] | size of figures on paper, units of normalised axes |
 //! | [`input`] | sweep, scenario and identification files, and the data files they name, to plans |
 //! | [`report`] | tables and figures, from records alone |
 //! | [`reproduction`] | the base paper, figure by figure; knows `reference` too, to draw closed forms and compare with them |
@@ -90,6 +91,7 @@ pub use contact_dma_core::{
 
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod figures;
 pub mod guide;
 // Some of it is used by the command line alone.
 #[cfg_attr(not(feature = "cli"), allow(dead_code))]

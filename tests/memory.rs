@@ -153,8 +153,9 @@ fn a_case_holds_the_memory_predicted_whatever_material_and_engine() {
 #[test]
 #[cfg(feature = "report")]
 fn large_pictures_are_drawn_one_after_another_in_the_memory_predicted() {
+    use contact_dma::figures::paper::drawing_bytes;
     use contact_dma::report::chart::{Axis, Chart, Series};
-    use contact_dma::sweep::figures::figure_plan::{FigurePlan, Format};
+    use contact_dma::sweep::plan::figures::{FigurePlan, Format};
 
     let _alone = alone();
     let plan = FigurePlan {
@@ -172,7 +173,7 @@ fn large_pictures_are_drawn_one_after_another_in_the_memory_predicted() {
             }
         });
     });
-    let ratio = plan.drawing_bytes(3) as f64 / counted as f64;
+    let ratio = drawing_bytes(&plan, 3) as f64 / counted as f64;
     println!("{counted} bytes, predicted {ratio:.3} times that");
     assert!((ratio - 1.0).abs() < 0.2, "{ratio}");
 }

@@ -14,7 +14,7 @@ use crate::report::figure::{
 };
 use crate::report::page::comparison::Compared;
 use crate::report::page::{self, Pictures};
-use crate::sweep::figures::figure_plan::FigurePlan;
+use crate::sweep::plan::figures::FigurePlan;
 use crate::sweep::store::RESOLVED;
 use crate::sweep::store::manifest::{Kind, Target, kind_of};
 

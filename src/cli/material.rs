@@ -19,7 +19,7 @@ use crate::report::figure::{
 use crate::report::page::{self, Pictures, material::About};
 use crate::report::words::{USUAL, wrapped};
 use crate::report::{self, ReportError, material::MaterialReport};
-use crate::sweep::figures::figure_plan::FigurePlan;
+use crate::sweep::plan::figures::FigurePlan;
 use crate::sweep::plan::resolved;
 use crate::sweep::store::manifest::{Kind, Target};
 

@@ -8,6 +8,7 @@ use clap::Args;
 use super::arguments::OutputFormat;
 use super::{Ended, Failure, json, meant_for, open_document, tell};
 use crate::engine::{EngineKind, SolverPlan};
+use crate::figures::paper::drawing_bytes;
 use crate::indenter::Indenter;
 use crate::input::sweep_file;
 use crate::quantity::{Dimension, format_human};
@@ -57,7 +58,7 @@ pub(super) fn with_accuracy(set: &[String], accuracy: Option<f64>) -> Result<Vec
 
 /// Prints cases and cost of a sweep.
 pub(super) fn show(setup: &Setup, format: OutputFormat) -> Result<Ended, Failure> {
-    let cost = Cost::of(setup).map_err(Failure::input)?;
+    let cost = Cost::of(setup, drawing_bytes(&setup.plan().figures, 1)).map_err(Failure::input)?;
     let found = || Ok(json::plan(setup, &cost));
     tell(format, false, found, || text(setup, &cost))
 }

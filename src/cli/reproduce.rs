@@ -19,7 +19,7 @@ use crate::report::words::{USUAL, wrapped, wrapped_line};
 use crate::reproduction::{
     self, Count, FIGURES, Figure, Plans, ReproductionError, SCENARIOS, SWEEPS, Verdict,
 };
-use crate::sweep::figures::figure_plan::FigurePlan;
+use crate::sweep::plan::figures::FigurePlan;
 use crate::sweep::search::run::useful_threads;
 use crate::sweep::store::manifest::{Kind, Target};
 

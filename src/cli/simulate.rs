@@ -12,6 +12,7 @@ use super::interruption;
 use super::plan::{megabytes, nodes};
 use super::progress::{bar, line};
 use super::{Ended, Failure, json, meant_for, memory, open_document, open_store, tell};
+use crate::figures::paper::drawing_bytes;
 use crate::input::scenario_file;
 use crate::report::quantities::{self, Moment};
 use crate::report::{self, machine, terminal_simulation};
@@ -106,7 +107,7 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
     let threads = run::useful_threads(flags.threads);
     let drawing_bytes = match flags.no_figures {
         true => 0,
-        false => simulation.plan().figures.drawing_bytes(threads),
+        false => drawing_bytes(&simulation.plan().figures, threads),
     };
     memory::warn_if_short(simulation.predicted_memory_bytes(), 1, drawing_bytes);
     let pool = run::pool(threads)?;

@@ -15,6 +15,7 @@ use super::progress::Shown;
 use super::{
     Ended, Failure, meant_for, memory, open_document, open_store, print, say_quietly, tell,
 };
+use crate::figures::paper::drawing_bytes;
 use crate::input::sweep_file;
 use crate::report::{self, terminal};
 use crate::sweep::case::Setup;
@@ -111,7 +112,7 @@ pub(super) fn run(flags: &SweepFlags, format: OutputFormat) -> Result<Ended, Fai
     };
     let drawing_bytes = match flags.no_figures {
         true => 0,
-        false => setup.plan().figures.drawing_bytes(options.threads),
+        false => drawing_bytes(&setup.plan().figures, options.threads),
     };
     memory::warn_if_short(
         setup.predicted_memory_bytes(),

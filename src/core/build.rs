@@ -30,13 +30,8 @@ const MODULES: [&str; 12] = [
     "simulation",
 ];
 
-/// Folders among them that make none: what keeps, finds, compares and shares out, and how figures look.
-const ASIDE: [&str; 4] = [
-    "sweep/figures/",
-    "sweep/scales/",
-    "sweep/share/",
-    "sweep/store/",
-];
+/// Parts of them that make none: what keeps, finds, compares and shares out, and how figures look.
+const ASIDE: [&str; 3] = ["sweep/plan/figures.rs", "sweep/share/", "sweep/store/"];
 
 /// Crates whose arithmetic they rest on.
 const CRATES: [&str; 8] = [

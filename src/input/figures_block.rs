@@ -6,8 +6,9 @@ use super::document::{Located, plain};
 use super::keys::settings::{
     AXES, COLUMN, FONT_SIZE_PT, FORMATS, FREQUENCY_UNIT, HEIGHT, LOOPS, RESOLUTION, TITLES, WIDTH,
 };
+use crate::figures::paper;
 use crate::quantity::{Dimension, FrequencyUnit, format_human};
-use crate::sweep::figures::figure_plan::{AxisUnits, FigurePlan, Format};
+use crate::sweep::plan::figures::{AxisUnits, FigurePlan, Format};
 
 /// Less room than this (in px of the drawing, whose text is 16 px) is no figure; more pixels than this no computer shows.
 const LEAST_WIDTH_PX: f64 = 320.0;
@@ -102,12 +103,12 @@ fn fits(
     dpi: Option<&Located<usize>>,
     problems: &Problems,
 ) -> bool {
-    let Some(paper) = plan.paper() else {
+    let Some(paper) = paper::paper_size(plan) else {
         return true;
     };
     let height_m = paper.height_m;
     let longest_m = height_m.map_or(paper.width_m, |height_m| height_m.max(paper.width_m));
-    let pixels = longest_m / 0.0254 * plan.resolution().unwrap_or_default() as f64;
+    let pixels = longest_m / 0.0254 * paper::resolution(plan).unwrap_or_default() as f64;
     let mut fine = true;
     if pixels > MOST_PIXELS && plan.formats.contains(&Format::Png) {
         let most = (MOST_PIXELS * 0.0254 / longest_m).floor();

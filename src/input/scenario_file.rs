@@ -13,13 +13,14 @@ use super::material_table::DirectSum;
 use super::{bodies_block, layer_block, material_block, segments_block};
 use crate::drive::SegmentedDrive;
 use crate::engine::{EngineKind, SolverPlan};
+use crate::figures::elastic::ElasticScale;
 use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::quantity::{Dimension, format_human};
 use crate::simulation::body_material::BodyMaterial;
 use crate::simulation::scenario::{OutputPlan, ScenarioPlan};
-use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::contact::ContactPlan;
+use crate::sweep::plan::figures::FigurePlan;
 
 /// The plan that a scenario file asks for.
 ///
@@ -76,7 +77,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Dia
             output: output?,
             figures: FigurePlan::default(),
         };
-        let scale = || plan.elastic_scale().map(drop);
+        let scale = || ElasticScale::of_scenario(&plan).map(drop);
         plan.figures = figures.checked(scale, problems)?;
         Some(plan)
     })

@@ -18,11 +18,11 @@ use super::keys::settings::{
 };
 use super::{harmonic_block, keys, layer_block};
 use crate::engine::SolverPlan;
+use crate::figures::elastic::ElasticScale;
 use crate::quantity::{Dimension, FrequencyUnit};
-use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::axes::MOST as MOST_AXES;
+use crate::sweep::plan::figures::FigurePlan;
 use crate::sweep::plan::{CyclePlan, Method, SweepPlan};
-use crate::sweep::scales::elastic::ElasticScale;
 use conditions::Blocks;
 
 const MAX_CASES: usize = SweepPlan::MAX_CASES;

@@ -77,7 +77,7 @@ mod sweep_files;
 #[cfg(feature = "report")]
 pub use sweep_files::{load_drawn_cycles, write_sweep, write_tables_of_sweep};
 
-use crate::sweep::scales::elastic::NoScale;
+use crate::figures::elastic::NoScale;
 use crate::sweep::store::StoreError;
 
 /// Why a report cannot be written.

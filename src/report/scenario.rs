@@ -9,7 +9,7 @@ use crate::report::page::{self, Pictures};
 use crate::report::scenario_tables;
 use crate::simulation::SimulationOutcome;
 use crate::simulation::scenario::ScenarioPlan;
-use crate::sweep::figures::figure_plan::AxisUnits;
+use crate::sweep::plan::figures::AxisUnits;
 use crate::sweep::store::Store;
 
 /// Writes everything, as far as the simulation came. Returns what was left out and why.

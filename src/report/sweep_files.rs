@@ -8,8 +8,8 @@ use super::figure::units::Units;
 use super::page;
 use super::page::Pictures;
 use super::sweep_tables;
-use crate::sweep::figures::figure_plan::AxisUnits;
 use crate::sweep::plan::SweepPlan;
+use crate::sweep::plan::figures::AxisUnits;
 use crate::sweep::search::run::Outcome;
 use crate::sweep::store::Store;
 

@@ -42,6 +42,7 @@ use crate::contact::ContactError;
 use crate::cycle::LoopError;
 use crate::drive::HistoryError;
 use crate::engine::EngineError;
+use crate::figures::paper;
 use crate::material::{Material, MaterialError};
 use crate::report::ReportError;
 use crate::report::chart::Chart;
@@ -50,8 +51,8 @@ use crate::report::figure::press::{Files, Press};
 use crate::report::page::Pictures;
 use crate::simulation::scenario::ScenarioPlan;
 use crate::sweep::case::SetupError;
-use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::SweepPlan;
+use crate::sweep::plan::figures::FigurePlan;
 use crate::sweep::search::peak::PeakError;
 use crate::sweep::search::run::{self, RunError};
 use crate::sweep::store::StoreError;
@@ -281,7 +282,7 @@ pub fn files(figures: &[Figure], plan: &FigurePlan) -> Result<Vec<(String, Vec<u
         let picture = Picture(figure.panels.clone());
         files.insert(format!("{name}.csv"), &figure.data[..]);
         // The page of the repository shows one resolution.
-        let mut forms = plan.pictures();
+        let mut forms = paper::pictures(plan);
         forms.retain(|(ending, _)| *ending != "@2x.png");
         let names = (&name[..], "a figure of the paper");
         press.picture_in(&forms, names, &picture, &figure.full_caption())?;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules from top to bottom: those of the package in `src/core`, then those of the program.
-const MODULES: [&str; 20] = [
+const MODULES: [&str; 21] = [
     "numerics",
     "quantity",
     "material",
@@ -20,6 +20,7 @@ const MODULES: [&str; 20] = [
     "simulation",
     "measured",
     "identify",
+    "figures",
     "input",
     "report",
     "reproduction",
@@ -28,9 +29,7 @@ const MODULES: [&str; 20] = [
 ];
 
 /// Folders of the module `sweep` from top to bottom.
-const SWEEP: [&str; 8] = [
-    "figures", "plan", "record", "store", "case", "scales", "share", "search",
-];
+const SWEEP: [&str; 6] = ["plan", "record", "store", "case", "share", "search"];
 
 /// Parts of the module `report` from top to bottom.
 const REPORT: [&str; 33] = [

@@ -90,8 +90,8 @@ fn what_makes_no_number_changes_nothing() {
         sources.with("src/cli/sweep.rs", |text| {
             format!("{text}// more\nconst A: u8 = 1;\n")
         }),
-        sources.with("src/core/sweep/figures/figure_plan.rs", |text| {
-            text.replace("FONT_SIZE_PT: f64 = 8.0", "FONT_SIZE_PT: f64 = 9.0")
+        sources.with("src/core/sweep/plan/figures.rs", |text| {
+            text.replace("titles: true", "titles: false")
         }),
         sources.with("src/core/sweep/store/mod.rs", |text| {
             text.replace("cannot", "can not")

@@ -7,11 +7,10 @@ use crate::engine::{EngineKind, SolverPlan};
 use crate::indenter::Indenter;
 use crate::quantity::Dimension;
 use crate::simulation::body_material::BodyMaterial;
-use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::check::{PlanError, check_count};
 use crate::sweep::plan::contact::ContactPlan;
+use crate::sweep::plan::figures::FigurePlan;
 use crate::sweep::plan::resolved::{self, entry, numbers, quoted};
-use crate::sweep::scales::elastic::{ElasticScale, NoScale};
 
 /// Everything a simulation needs to know. Two equal plans give equal results, bit for bit.
 #[derive(Debug, Clone)]
@@ -67,18 +66,6 @@ impl ScenarioPlan {
         check_count("cells of a field", cells, &SolverPlan::CELLS)?;
         self.contact.check()?;
         self.solver.check()
-    }
-}
-
-impl ScenarioPlan {
-    /// Units of the elastic contact under the largest value of the drive.
-    ///
-    /// # Errors
-    /// [`NoScale`].
-    pub fn elastic_scale(&self) -> Result<ElasticScale, NoScale> {
-        let material = self.contact.material.series().ok_or(NoScale::Samples)?;
-        let largest = self.drive.maximum() + self.drive.pull_off_n();
-        ElasticScale::new(&self.contact, material, self.drive.control(), largest)
     }
 }
 

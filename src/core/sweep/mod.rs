@@ -27,20 +27,16 @@
 //!
 //! | folder | what it knows |
 //! |---|---|
-//! | [`figures`] | how figures look |
 //! | [`plan`] | what to compute: a sweep with every default filled in, as values and as text; ranges of values |
 //! | [`record`] | what a case came to, its error bars, and what is said of it |
 //! | [`store`] | where results are kept: memory, or a folder of files whole or not at all, and where they come from |
 //! | [`case`] | one case: the stabilised cycle on several resolutions |
-//! | [`scales`] | units of the elastic contact for figures |
 //! | [`share`] | what cases cost, and how they are shared out |
 //! | [`search`] | all cases in parallel, frequencies added where the curve asks for them and peaks; [`Sweep`] |
 
 pub mod case;
-pub mod figures;
 pub mod plan;
 pub mod record;
-pub mod scales;
 pub mod search;
 pub mod share;
 pub mod store;

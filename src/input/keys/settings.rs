@@ -4,6 +4,7 @@ use std::ops::RangeInclusive;
 
 use super::rows;
 use crate::engine::{EngineKind, SolverPlan};
+use crate::figures::paper::COLUMNS;
 use crate::history::TimeRule;
 use crate::input::document::kind::{
     Array, Boolean, Choice, Integer, Scalar, list, number, quantity,
@@ -13,7 +14,7 @@ use crate::input::document::row::{Optional, Or, Others, Row, Rows};
 use crate::quantity::Dimension::{AngularFrequency, Length, Time};
 use crate::quantity::FrequencyUnit;
 use crate::simulation::scenario::OutputPlan;
-use crate::sweep::figures::figure_plan::{AxisUnits, COLUMNS, Format};
+use crate::sweep::plan::figures::{AxisUnits, Format};
 use crate::sweep::plan::{CyclePlan, Method};
 
 /// Rounding leaves less than the first.

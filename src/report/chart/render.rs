@@ -9,7 +9,7 @@ use resvg::{tiny_skia, usvg};
 use super::ChartError;
 use super::drawing::{Drawing, PROGRAM};
 use super::text::options;
-use crate::sweep::figures::figure_plan::MANY_PIXELS;
+use crate::figures::paper::MANY_PIXELS;
 
 /// CSS and SVG count so many px to an inch.
 const PX_PER_INCH: f32 = 96.0;

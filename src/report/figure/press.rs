@@ -6,11 +6,12 @@ use std::sync::{Mutex, PoisonError};
 use rayon::prelude::*;
 
 use super::{Figure, Picture};
+use crate::figures::paper::{self, Form, PaperSize};
 use crate::report::ReportError;
 use crate::report::caption::Setting;
 use crate::report::chart::{self, Chart, ChartError, Color, Drawing, LegendPlace, LineStyle};
 use crate::report::page::Pictures;
-use crate::sweep::figures::figure_plan::{FigurePlan, Form, PaperSize};
+use crate::sweep::plan::figures::FigurePlan;
 use crate::sweep::store::StoreError;
 use crate::sweep::store::files;
 
@@ -70,7 +71,12 @@ impl Press<'_> {
         picture: &Picture,
         caption: &str,
     ) -> Result<(), ReportError> {
-        match self.picture_in(&self.plan.pictures(), (file, figure), picture, caption) {
+        match self.picture_in(
+            &paper::pictures(self.plan),
+            (file, figure),
+            picture,
+            caption,
+        ) {
             Err(ReportError::Chart { source, .. }) => {
                 self.pictures.insert_failure(file, &source);
                 Ok(())
@@ -128,7 +134,7 @@ impl Picture {
                 chart.title = None;
             }
         }
-        let Some(paper) = plan.paper() else {
+        let Some(paper) = paper::paper_size(plan) else {
             return picture.draw();
         };
         picture.make_fit_for_paper();

@@ -2,13 +2,13 @@
 //! quantity over its unit, so that both are told apart there: `load W / N` and `load W / W₀`.
 
 use crate::drive::Control;
+use crate::figures::elastic::ElasticScale;
 use crate::quantity::{Dimension, FrequencyUnit, ZERO_CELSIUS_K, format_human};
 use crate::report::ReportError;
 use crate::report::number::{self, at_frequency, plain, prefix, scientific};
 use crate::simulation::scenario::ScenarioPlan;
-use crate::sweep::figures::figure_plan::AxisUnits;
+use crate::sweep::plan::figures::AxisUnits;
 use crate::sweep::plan::{SweepPlan, Varied};
-use crate::sweep::scales::elastic::ElasticScale;
 
 /// The units of a result's figures.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -88,7 +88,7 @@ impl Units {
     /// As [`Units::of_sweep`].
     pub fn of_scenario(plan: &ScenarioPlan) -> Result<Self, ReportError> {
         let under = || format!("largest {}", plan.drive.control().name());
-        Self::new(plan.figures.axes, under, || plan.elastic_scale())
+        Self::new(plan.figures.axes, under, || ElasticScale::of_scenario(plan))
     }
 
     fn new<E: Into<ReportError>>(

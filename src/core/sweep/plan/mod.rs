@@ -4,6 +4,7 @@ pub mod adhesion;
 pub mod axes;
 pub mod check;
 pub mod contact;
+pub mod figures;
 pub mod layer;
 mod material_text;
 pub mod resolved;
@@ -17,8 +18,8 @@ use crate::drive::HarmonicDrive;
 use crate::engine::SolverPlan;
 use crate::indenter::Indenter;
 use crate::material::Material;
-use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::contact::ContactPlan;
+use crate::sweep::plan::figures::FigurePlan;
 
 /// Cases of a small sweep, at most.
 pub const SMALL: usize = 200;

@@ -338,7 +338,7 @@ pub fn toml_string(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::figures::figure_plan::FigurePlan;
+    use crate::sweep::plan::figures::FigurePlan;
 
     #[test]
     fn its_title_and_how_its_figures_look_are_no_part_of_what_a_sweep_is() {

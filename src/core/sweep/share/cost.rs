@@ -61,11 +61,11 @@ const FEWEST_STEPS: u32 = 4;
 const SHARD_S: f64 = 600.0;
 
 impl Cost {
-    /// Measures and predicts.
+    /// Measures and predicts; drawing its largest figure takes so many bytes.
     ///
     /// # Errors
     /// [`SetupError`] where no engine can be made. Where no step can be taken, the measured time is that of the attempt.
-    pub fn of(setup: &Setup) -> Result<Self, SetupError> {
+    pub fn of(setup: &Setup, drawing_bytes: u64) -> Result<Self, SetupError> {
         let at_accuracy = trial::at_accuracy(setup)?;
         let setup = at_accuracy.as_ref().unwrap_or(setup);
         let (step_s, predicted_s) = predicted(setup)?;
@@ -94,7 +94,7 @@ impl Cost {
             memory_bytes: setup.predicted_memory_bytes(),
             results_bytes: RESULT_BYTES * cases.len() as u64
                 + STEP_BYTES * steps_told
-                + DRAWING_BYTES.max(plan.figures.drawing_bytes(1)),
+                + DRAWING_BYTES.max(drawing_bytes),
             disk_bytes: FIGURES_BYTES + of_tables + of_records,
             cases,
             step_s,

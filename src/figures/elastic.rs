@@ -5,6 +5,7 @@ use crate::drive::Control;
 use crate::indenter::Indenter;
 use crate::material::{Material, ModulusKind};
 use crate::numerics::roots::bisect;
+use crate::simulation::scenario::ScenarioPlan;
 use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::{SweepPlan, Varied};
 
@@ -62,11 +63,18 @@ impl ElasticScale {
         )
     }
 
-    /// That of any contact, under the largest value that its drive prescribes.
+    /// The scale of a history: under the largest value of its drive.
     ///
     /// # Errors
     /// [`NoScale`].
-    pub fn new<M>(
+    pub fn of_scenario(plan: &ScenarioPlan) -> Result<Self, NoScale> {
+        let material = plan.contact.material.series().ok_or(NoScale::Samples)?;
+        let largest = plan.drive.maximum() + plan.drive.pull_off_n();
+        Self::new(&plan.contact, material, plan.drive.control(), largest)
+    }
+
+    /// That of any contact under this load (N) or approach (m).
+    fn new<M>(
         of: &ContactPlan<M>,
         material: &Material,
         control: Control,

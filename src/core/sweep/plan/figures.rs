@@ -34,22 +34,11 @@ pub enum Format {
     Pdf,
 }
 
-/// How one picture is drawn.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Form {
-    Svg,
-    Pdf,
-    /// With this many pixels per inch on paper.
-    PngOfDpi(usize),
-    /// With this many pixels per px.
-    PngOfScale(f32),
-}
-
 /// What the axes of figures are in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AxisUnits {
     Si,
-    /// Units of the elastic contact: see [`crate::sweep::scales::elastic::ElasticScale`].
+    /// Units of the elastic contact that the same indenter makes on a body as stiff as this one is at once.
     Normalised,
 }
 
@@ -63,36 +52,6 @@ impl AxisUnits {
     /// All, as sweep files name them.
     pub const NAMES: [(&'static str, Self); 2] =
         [("si", Self::Si), ("normalised", Self::Normalised)];
-}
-
-/// Widths (m) of a figure in one and in two columns of a journal, as sweep files name them.
-pub const COLUMNS: [(&str, f64); 2] = [("one", 0.085), ("two", 0.180)];
-
-/// Text size (pt) where a size is asked for but none of the text.
-const FONT_SIZE_PT: f64 = 8.0;
-/// Resolution (pixels per inch) of a PNG whose size on paper is asked for.
-const DPI: usize = 300;
-/// A px of a figure of which nothing is asked, on paper (m), and its text (px).
-const PX_M: f64 = 0.0254 / 96.0;
-const WIDTH_PX: f64 = 800.0;
-const TEXT_PX: f64 = 16.0;
-const POINT_M: f64 = 0.0254 / 72.0;
-
-/// Pictures of more pixels are drawn one after another, on however many threads.
-pub const MANY_PIXELS: u64 = 1 << 24;
-/// Memory (bytes) that drawing a picture takes, per pixel: its colours with transparency and without.
-const PIXEL_BYTES: f64 = 7.0;
-/// Height of a figure over its width, where none is given.
-const HEIGHT: f64 = 0.75;
-
-/// A figure on paper.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PaperSize {
-    pub width_m: f64,
-    /// `None`: as the figure asks for.
-    pub height_m: Option<f64>,
-    /// Length (m) of one px of the drawing: its text of 16 px has the size asked for.
-    pub px_m: f64,
 }
 
 impl Default for FigurePlan {
@@ -112,61 +71,6 @@ impl Default for FigurePlan {
 }
 
 impl FigurePlan {
-    /// The size on paper, where any of it is asked for.
-    pub fn paper(&self) -> Option<PaperSize> {
-        if self.width_m.is_none() && self.height_m.is_none() && self.font_size_pt.is_none() {
-            return None;
-        }
-        let font_size_pt = self.font_size_pt.unwrap_or(FONT_SIZE_PT);
-        Some(PaperSize {
-            width_m: self.width_m.unwrap_or(WIDTH_PX * PX_M),
-            height_m: self.height_m,
-            px_m: font_size_pt * POINT_M / TEXT_PX,
-        })
-    }
-
-    /// Resolution (pixels per inch) of a single PNG; `None` for the two of figures of which nothing is asked.
-    pub fn resolution(&self) -> Option<usize> {
-        let of_paper = self.paper().map(|_| DPI);
-        self.dpi.or(of_paper)
-    }
-
-    /// Memory (bytes) that drawing pictures takes on this number of threads.
-    pub fn drawing_bytes(&self, threads: usize) -> u64 {
-        let (paper, pictures) = (self.paper(), self.pictures());
-        let width_m = paper.map_or(WIDTH_PX * PX_M, |paper| paper.width_m);
-        let height_m = paper.and_then(|paper| paper.height_m);
-        let area_m2 = width_m * height_m.unwrap_or(HEIGHT * width_m);
-        let pixels = |form: &Form| match form {
-            Form::Svg | Form::Pdf => 0.0,
-            Form::PngOfDpi(dpi) => area_m2 * (*dpi as f64 / 0.0254).powi(2),
-            Form::PngOfScale(scale) => area_m2 * (f64::from(*scale) / PX_M).powi(2),
-        };
-        let largest = pictures
-            .iter()
-            .map(|(_, form)| pixels(form))
-            .fold(0.0, f64::max);
-        let at_once = match largest > MANY_PIXELS as f64 {
-            true => 1,
-            false => threads,
-        };
-        (PIXEL_BYTES * largest) as u64 * at_once as u64
-    }
-
-    /// The pictures of a figure: the ending of each, and how it is drawn.
-    pub fn pictures(&self) -> Vec<(&'static str, Form)> {
-        let of_format = |format: &Format| match (format, self.resolution()) {
-            (Format::Svg, _) => vec![(".svg", Form::Svg)],
-            (Format::Pdf, _) => vec![(".pdf", Form::Pdf)],
-            (Format::Png, Some(dpi)) => vec![(".png", Form::PngOfDpi(dpi))],
-            (Format::Png, None) => vec![
-                (".png", Form::PngOfScale(1.0)),
-                ("@2x.png", Form::PngOfScale(2.0)),
-            ],
-        };
-        self.formats.iter().flat_map(of_format).collect()
-    }
-
     /// The table as it stands at the end of a resolved file: what differs from the default, nothing where nothing does.
     pub fn text(&self) -> String {
         let default = Self::default();
@@ -243,37 +147,5 @@ mod tests {
             "\n[figures]\nloops = [\"0.001 rad/s\", \"0.1 rad/s\"]\nwidth = \"0.085 m\"\nheight = \"0.06 m\"\nfont_size = 7.0\n\
              formats = [\"png\", \"pdf\"]\ndpi = 600\naxes = \"normalised\"\nfrequency_unit = \"Hz\"\ntitles = false\n"
         );
-    }
-
-    #[test]
-    fn text_of_the_drawing_has_the_size_asked_for() {
-        assert_eq!(FigurePlan::default().paper(), None);
-        let paper = everything().paper().unwrap();
-        // 16 px are 7 pt.
-        assert!((16.0 * paper.px_m / POINT_M - 7.0).abs() < 1e-12);
-        let only_text = FigurePlan {
-            font_size_pt: Some(12.0),
-            ..FigurePlan::default()
-        };
-        let paper = only_text.paper().unwrap();
-        // As without the table: 800 px.
-        assert!((paper.width_m / paper.px_m - 800.0).abs() < 1e-9);
-    }
-
-    #[test]
-    fn two_resolutions_are_for_figures_of_which_nothing_is_asked() {
-        let endings = |plan: &FigurePlan| -> Vec<&str> {
-            let pictures = plan.pictures().into_iter();
-            pictures.map(|(ending, _)| ending).collect()
-        };
-        let default = FigurePlan::default();
-        assert_eq!(endings(&default), [".svg", ".png", "@2x.png"]);
-        assert_eq!(endings(&everything()), [".png", ".pdf"]);
-        assert_eq!(everything().resolution(), Some(600));
-        let column = FigurePlan {
-            width_m: Some(0.085),
-            ..FigurePlan::default()
-        };
-        assert_eq!(column.resolution(), Some(300));
     }
 }
