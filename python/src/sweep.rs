@@ -327,14 +327,14 @@ type PeakNumbers = (
     f64,
     f64,
     Option<f64>,
-    Vec<AxisValue>,
+    Vec<PeakValue>,
     Option<f64>,
     Option<f64>,
 );
 
 /// What an axis has for a peak: a number in SI units, or the name of a block.
 #[derive(IntoPyObject)]
-enum AxisValue {
+enum PeakValue {
     Number(f64),
     Name(String),
 }
@@ -349,8 +349,8 @@ fn peak(plan: &SweepPlan, peak: &Peak) -> PeakNumbers {
         peak.energy_loss_error_j,
         varied
             .map(|(varied, value)| match varied.block_name(*value) {
-                Some(name) => AxisValue::Name(name.to_owned()),
-                None => AxisValue::Number(*value),
+                Some(name) => PeakValue::Name(name.to_owned()),
+                None => PeakValue::Number(value.as_number()),
             })
             .collect(),
         peak.drive_mean,

@@ -34,7 +34,7 @@ fn varied(plan: &SweepPlan, values: &AxisValues) -> Value {
     let values = over.zip(values.all());
     let told = values.map(|(varied, value)| match varied.block_name(*value) {
         Some(name) => json!(name),
-        None => json!(value),
+        None => json!(value.number()),
     });
     let mut told: Vec<_> = told.collect();
     match told.len() {

@@ -12,7 +12,7 @@ use super::interruption;
 use crate::quantity::FrequencyUnit;
 use crate::report::number;
 use crate::report::words::case;
-use crate::sweep::plan::{SweepPlan, Varied};
+use crate::sweep::plan::{AxisValue, SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::Progress;
 
@@ -64,7 +64,7 @@ impl Shown {
     /// What the axes besides the frequency have in a case.
     fn varied(&self, record: &CaseRecord) -> String {
         let values = self.axes.iter().zip(record.varied.all());
-        let one = |(axis, value): (&Varied, &f64)| {
+        let one = |(axis, value): (&Varied, &AxisValue)| {
             format!(", {} {}", axis.words(), number::varied(axis, *value))
         };
         values.map(one).collect()

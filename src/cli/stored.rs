@@ -269,7 +269,9 @@ fn lacking(missing: &[Case], of: usize, out: &Store) -> String {
     for case in missing.iter().take(NAMED) {
         let Condition { values, drive, .. } = &case.condition;
         let values = values.all().iter();
-        let value: String = values.map(|value| format!("axis {value}, ")).collect();
+        let value: String = values
+            .map(|value| format!("axis {}, ", value.as_number()))
+            .collect();
         text.push_str(&format!(
             "  case {}: ω = {:e} rad/s ({value}mean {}, amplitude {})\n",
             case.index,

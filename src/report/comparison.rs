@@ -17,7 +17,7 @@ use columns::Beside;
 
 use crate::quantity::FrequencyUnit;
 use crate::report::table::Cell;
-use crate::sweep::plan::AxisValues;
+use crate::sweep::plan::{AxisValue, AxisValues};
 use crate::sweep::search::peak::Peak;
 
 /// How much two values may differ.
@@ -210,10 +210,12 @@ impl Comparison {
     /// What axes vary of a case: numbers in SI units, or the names of blocks.
     fn varied(&self, place: &Place) -> Vec<Cell> {
         let values = place.varied.all().iter().enumerate();
-        let cell = |(axis, value): (usize, &f64)| {
-            let names = self.names.get(axis);
-            let name = names.and_then(|names| names.get(*value as usize));
-            name.map_or_else(|| Cell::from(*value), |name| name.clone().into())
+        let cell = |(axis, value): (usize, &AxisValue)| match value {
+            AxisValue::Number(number) => Cell::from(*number),
+            AxisValue::Block(place) => match self.names.get(axis).and_then(|all| all.get(*place)) {
+                Some(name) => name.clone().into(),
+                None => Cell::Absent,
+            },
         };
         values.map(cell).collect()
     }

@@ -40,7 +40,18 @@ const ARRAYS: [Array; 15] = [
         |c| vec![c.record.angular_frequency_rad_per_s],
         false,
     ),
-    ("varied", |c| c.record.varied.all().to_vec(), false),
+    (
+        "varied",
+        |c| {
+            c.record
+                .varied
+                .all()
+                .iter()
+                .map(|value| value.as_number())
+                .collect()
+        },
+        false,
+    ),
     ("drive_mean", |c| vec![c.record.drive_mean], false),
     ("drive_amplitude", |c| vec![c.record.drive_amplitude], false),
     (

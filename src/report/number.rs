@@ -2,7 +2,7 @@
 
 pub(super) use crate::quantity::superscript;
 use crate::quantity::{Dimension, FrequencyUnit, ZERO_CELSIUS_K, format_human};
-use crate::sweep::plan::Varied;
+use crate::sweep::plan::{AxisValue, Varied};
 
 /// The power of ten and its prefix in which values up to `largest` read well: (factor to multiply by, prefix).
 pub fn prefix(largest: f64) -> (f64, &'static str) {
@@ -195,10 +195,15 @@ pub(super) fn plain(value: f64, dimension: Dimension, significant: usize) -> Str
 }
 
 /// A value (SI units) of what a second axis varies, to be read: `5 N`, `25 °C`; of a block its name.
-pub fn varied(varied: &Varied, value: f64) -> String {
-    if let Some(name) = varied.block_name(value) {
-        return name.to_owned();
+pub fn varied(varied: &Varied, value: AxisValue) -> String {
+    match value {
+        AxisValue::Block(_) => varied.block_name(value).unwrap_or_default().to_owned(),
+        AxisValue::Number(number) => varied_number(varied, number),
     }
+}
+
+/// The same of an axis that varies a number.
+pub fn varied_number(varied: &Varied, value: f64) -> String {
     match varied.dimension {
         // Kelvin to degrees leaves rounding.
         Some(Dimension::Temperature) => {

@@ -4,7 +4,7 @@ use super::work_line::WorkLine;
 use crate::cycle::Loop;
 use crate::drive::Control;
 use crate::quantity::FrequencyUnit;
-use crate::sweep::plan::Varied;
+use crate::sweep::plan::{AxisValue, Varied};
 use crate::sweep::record::PressureProfile;
 
 /// One cell of a table.
@@ -19,10 +19,10 @@ pub enum Cell {
 
 impl Cell {
     /// Of what an axis varies: a number, or the name of a block.
-    pub fn of_axis(varied: &Varied, value: Option<f64>) -> Self {
+    pub fn of_axis(varied: &Varied, value: Option<AxisValue>) -> Self {
         match value.and_then(|value| varied.block_name(value)) {
             Some(name) => name.to_owned().into(),
-            None => value.into(),
+            None => value.and_then(AxisValue::number).into(),
         }
     }
 

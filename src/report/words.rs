@@ -36,7 +36,7 @@ pub fn drive_line(drive: &HarmonicDrive, plan: &SweepPlan) -> String {
     let range = |is_varied: fn(&Varied) -> bool| {
         let axes = plan.axes.as_ref()?;
         let axis = axes.over.iter().position(is_varied)?;
-        let (least, largest) = number::range(axes.values_of(axis));
+        let (least, largest) = number::range(axes.numbers_of(axis));
         Some(format!("{} to {}", value(least), value(largest)))
     };
     let mean = range(Varied::is_mean).unwrap_or_else(|| value(drive.mean()));
@@ -88,8 +88,8 @@ pub fn varied_line(plan: &SweepPlan) -> Option<String> {
         if varied.is_whole() {
             return None;
         }
-        let (least, largest) = number::range(axes.values_of(axis));
-        let [least, largest] = [least, largest].map(|value| number::varied(varied, value));
+        let (least, largest) = number::range(axes.numbers_of(axis));
+        let [least, largest] = [least, largest].map(|value| number::varied_number(varied, value));
         Some(format!("{} {least} to {largest}", varied.words()))
     };
     let lines: Vec<String> = axes.own_columns().filter_map(line).collect();

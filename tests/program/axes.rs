@@ -79,7 +79,7 @@ fn records(plan: SweepPlan) -> Vec<CaseRecord> {
 fn losses(plan: SweepPlan) -> Vec<(Option<f64>, u64)> {
     let loss = |record: CaseRecord| {
         let loss = record.energy_loss_j().unwrap();
-        (record.varied.first(), loss.to_bits())
+        (record.varied.first_number(), loss.to_bits())
     };
     records(plan).into_iter().map(loss).collect()
 }
@@ -92,7 +92,7 @@ fn results(mut plan: SweepPlan) -> Vec<(Option<f64>, CaseResult)> {
     let result = |record: CaseRecord| {
         let result = record.result.unwrap();
         assert!(result.errors.is_some());
-        (record.varied.first(), result)
+        (record.varied.first_number(), result)
     };
     records(plan).into_iter().map(result).collect()
 }
@@ -442,7 +442,7 @@ fn a_flag_adds_an_axis_or_takes_the_place_of_its_values() {
     document.set("sweep.drive.amplitude=").unwrap();
     let axes = sweep_file::plan(&document).unwrap().axes.unwrap();
     assert!(axes.over.len() == 1 && axes.varied().is_mean());
-    assert_eq!(axes.values().collect::<Vec<_>>(), [1.0, 2.0, 3.0]);
+    assert_eq!(axes.numbers_of(0), [1.0, 2.0, 3.0]);
 }
 
 #[test]

@@ -16,7 +16,7 @@ use contact_dma::material::{Material, ModulusKind, Relaxation};
 use contact_dma::quantity::Dimension;
 use contact_dma::report;
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::plan::{Axes, AxisValues, Block, Condition, SweepPlan, Varied};
+use contact_dma::sweep::plan::{Axes, AxisValue, AxisValues, Block, Condition, SweepPlan, Varied};
 use contact_dma::sweep::record::CaseRecord;
 use contact_dma::sweep::search::run::{self, Outcome, Progress};
 use contact_dma::sweep::store::Store;
@@ -119,7 +119,7 @@ fn over_four_axes(mut plan: SweepPlan) -> SweepPlan {
         let [amplitude, mean, phase_rad, hold_s] = values;
         let drive = HarmonicDrive::new(control, mean, amplitude, phase_rad, hold_s);
         Condition {
-            values: AxisValues::new(&values).unwrap(),
+            values: AxisValues::new(&values.map(AxisValue::Number)).unwrap(),
             drive: drive.unwrap(),
             ..plan.base.clone()
         }

@@ -25,7 +25,7 @@ use crate::simulation::body_material::BodyMaterial;
 use crate::sweep::plan::axes::GivenBlocks;
 use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::layer::LayerPlan;
-use crate::sweep::plan::{self, AxisValues, Block, Condition, Varied};
+use crate::sweep::plan::{self, AxisValue, AxisValues, Block, Condition, Varied};
 
 /// What a block says, and what it says under each condition; under none of them where that is the same.
 #[derive(Clone)]
@@ -146,14 +146,15 @@ impl<'a> Blocks<'a> {
             self.prescribed == Prescribed::Pressure && of_drive
         };
         let area_m2 = indenter.own.period_area_m2().unwrap_or(1.0);
-        let as_load = |(value, swept): (&f64, &Swept)| match is_pressure(swept) {
-            true => area_m2 * value,
-            false => *value,
+        let value_of = |(value, swept): (&f64, &Swept)| match is_pressure(swept) {
+            _ if swept.varied.is_whole() => AxisValue::Block(*value as usize),
+            true => AxisValue::Number(area_m2 * value),
+            false => AxisValue::Number(*value),
         };
         let axes = |sweep: &Axes| {
             let mut conditions = Vec::with_capacity(self.conditions.len());
             for (k, values) in self.conditions.iter().enumerate() {
-                let values: Vec<f64> = values.iter().zip(&sweep.swept).map(as_load).collect();
+                let values: Vec<_> = values.iter().zip(&sweep.swept).map(value_of).collect();
                 conditions.push(condition(
                     AxisValues::new(&values)?,
                     material.under(k),

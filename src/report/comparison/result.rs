@@ -7,7 +7,7 @@ use serde::Deserialize;
 use super::Place;
 use crate::quantity::FrequencyUnit;
 use crate::report::quantities;
-use crate::sweep::plan::{AxisValues, Block};
+use crate::sweep::plan::{AxisValue, AxisValues, Block};
 use crate::sweep::search::peak::Peak;
 
 /// Why a result cannot be compared.
@@ -108,8 +108,8 @@ impl Summary {
             let Some(known) = known.and_then(|known| names.get_mut(known)) else {
                 continue;
             };
-            let places: Vec<f64> = (axis.names.iter())
-                .map(|name| place_among(known, name) as f64)
+            let places: Vec<usize> = (axis.names.iter())
+                .map(|name| place_among(known, name))
                 .collect();
             for peak in &mut self.peaks {
                 peak.varied = peak.varied.placed(k, &places);
@@ -200,8 +200,8 @@ impl SweepTable {
         let mut varied = Vec::with_capacity(self.axes.len());
         for (axis, names) in self.axes.iter().zip(names) {
             varied.push(match has_names(axis) {
-                true => place_among(names, self.text(row, axis)) as f64,
-                false => number(axis)?,
+                true => AxisValue::Block(place_among(names, self.text(row, axis))),
+                false => AxisValue::Number(number(axis)?),
             });
         }
         Ok(Place {
@@ -335,7 +335,8 @@ fn numbers(place: &Place) -> impl Iterator<Item = f64> {
         place.drive_amplitude,
         place.angular_frequency_rad_per_s,
     ];
-    place.varied.all().iter().copied().chain(drive)
+    let varied = place.varied.all().iter().map(|value| value.as_number());
+    varied.chain(drive)
 }
 
 /// The numbers of a place, bit for bit.

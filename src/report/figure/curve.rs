@@ -83,7 +83,7 @@ impl<'a> SweepCurves<'a> {
     /// The values of the second axis, one for each curve.
     pub fn values(&self) -> impl DoubleEndedIterator<Item = f64> {
         let curves = self.curves.iter();
-        curves.filter_map(|curve| curve.condition.value())
+        curves.filter_map(|curve| curve.condition.number())
     }
 
     /// A table of cases or peaks: these columns, then where they are in the sweep, then these numbers.

@@ -60,7 +60,7 @@ pub fn chart(sweep: &SweepCurves<'_>, axes: &Axes, mapped: Mapped<'_>) -> Option
     values.iter().any(Option::is_some).then_some(())?;
     let place = |omega: f64, value: f64| (to_omega * omega, unit.of(value));
     let points = sweep.curves.iter().flat_map(|curve| {
-        let value = curve.condition.value();
+        let value = curve.condition.number();
         let there = curve.records.iter().filter(|r| (mapped.value)(r).is_some());
         there.filter_map(move |r| Some(place(r.angular_frequency_rad_per_s, value?)))
     });
@@ -133,7 +133,7 @@ impl Row {
             (record.angular_frequency_rad_per_s.log10(), value)
         };
         Some(Self {
-            place: y_scale.linearised(curve.condition.value()?),
+            place: y_scale.linearised(curve.condition.number()?),
             cases: curve.records.iter().map(case).collect(),
         })
     }

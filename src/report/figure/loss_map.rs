@@ -19,7 +19,12 @@ pub fn figure(sweep: &SweepCurves<'_>, axes: &Axes) -> Drawn {
         value: &|record| Some(factor * record.energy_loss_j()?),
         label: format!("energy loss per cycle / {unit}"),
         rings: peaks
-            .filter_map(|peak| Some((peak.angular_frequency_rad_per_s, peak.varied.first()?)))
+            .filter_map(|peak| {
+                Some((
+                    peak.angular_frequency_rad_per_s,
+                    peak.varied.first_number()?,
+                ))
+            })
             .collect(),
     };
     let chart = drive_map::chart(sweep, axes, mapped).ok_or(

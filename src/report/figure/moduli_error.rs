@@ -80,7 +80,7 @@ fn caption(axis: &Axes, rows: &[(f64, Row<'_>)]) -> Caption {
 fn rows<'a>(sweep: &SweepCurves<'a>) -> Vec<(f64, Row<'a>)> {
     let curves = sweep.curves.iter();
     let loops: Vec<(f64, Vec<LoopModulus<'a>>)> = curves
-        .filter_map(|curve| Some((curve.condition.value()?, of_loops(curve))))
+        .filter_map(|curve| Some((curve.condition.number()?, of_loops(curve))))
         .collect();
     let planned = &sweep.plan.angular_frequencies_rad_per_s;
     let some = evenly(planned.len(), FREQUENCIES).into_iter();

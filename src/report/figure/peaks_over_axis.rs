@@ -21,7 +21,7 @@ pub fn figure(sweep: &SweepCurves<'_>, over: &Axes) -> Drawn {
     let highest = over
         .conditions
         .iter()
-        .filter_map(|condition| Some((condition.value()?, outcome.highest_peak(condition))));
+        .filter_map(|condition| Some((condition.number()?, outcome.highest_peak(condition))));
     let highest: Vec<(f64, Option<&Peak>)> = highest.collect();
     let found = || highest.iter().filter_map(|(_, peak)| *peak);
     if found().count() < 2 {

@@ -8,7 +8,7 @@ use crate::report::ReportError;
 use crate::report::number::{self, at_frequency, plain, prefix, scientific};
 use crate::simulation::scenario::ScenarioPlan;
 use crate::sweep::plan::figures::AxisUnits;
-use crate::sweep::plan::{SweepPlan, Varied};
+use crate::sweep::plan::{AxisValue, SweepPlan, Varied};
 
 /// The units of a result's figures.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -176,9 +176,12 @@ impl Units {
     }
 
     /// A value of what a second axis varies, to be read: `5 N`, `25 °C`.
-    pub fn varied_value(&self, varied: &Varied, value: f64) -> String {
-        if varied.is_whole() || varied.dimension == Some(Dimension::Temperature) {
+    pub fn varied_value(&self, varied: &Varied, value: AxisValue) -> String {
+        let AxisValue::Number(value) = value else {
             return number::varied(varied, value);
+        };
+        if varied.dimension == Some(Dimension::Temperature) {
+            return number::varied_number(varied, value);
         }
         let unit = self.varied(varied, value.abs());
         let number = scientific(unit.of(value), 3);
@@ -282,6 +285,7 @@ impl Units {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sweep::plan::AxisValue::Number;
     use crate::sweep::plan::Block;
 
     fn normalised() -> Units {
@@ -314,22 +318,28 @@ mod tests {
         assert_eq!(hz.at(omega / 1e3), "f = 2 × 10⁻⁴ Hz");
         assert_eq!(hz.frequency_title(), "frequency f / Hz");
         let [load, approach] = [Control::Load, Control::Approach].map(Varied::amplitude);
-        assert_eq!(si.varied_value(&load, 5.0), "5 N");
-        assert_eq!(si.varied_value(&load, 0.25), "250 mN");
-        assert_eq!(si.varied_value(&approach, 1.5e-6), "1.5 µm");
-        assert_eq!(si.varied_value(&approach, 0.0), "0 m");
-        assert_eq!(normalised.varied_value(&load, 5.0), "0.5 W₀");
+        assert_eq!(si.varied_value(&load, Number(5.0)), "5 N");
+        assert_eq!(si.varied_value(&load, Number(0.25)), "250 mN");
+        assert_eq!(si.varied_value(&approach, Number(1.5e-6)), "1.5 µm");
+        assert_eq!(si.varied_value(&approach, Number(0.0)), "0 m");
+        assert_eq!(normalised.varied_value(&load, Number(5.0)), "0.5 W₀");
         let of = |block, key: &'static str, dimension| Varied::number(block, key, dimension);
         let temperature = of(Block::Material, "temperature", Some(Dimension::Temperature));
-        assert_eq!(normalised.varied_value(&temperature, 298.15), "25 °C");
+        assert_eq!(
+            normalised.varied_value(&temperature, Number(298.15)),
+            "25 °C"
+        );
         let unit = si.varied(&temperature, 300.0);
         let title = unit.title(&temperature, Control::Load);
         assert_eq!(title, "temperature of the material / °C");
         let angle = of(Block::Indenter, "half_angle", Some(Dimension::Angle));
-        assert_eq!(si.varied_value(&angle, 0.5 * std::f64::consts::PI), "90°");
+        assert_eq!(
+            si.varied_value(&angle, Number(0.5 * std::f64::consts::PI)),
+            "90°"
+        );
         assert_eq!(angle.column(), "indenter_half_angle_rad");
         let ratio = of(Block::Material, "poisson_ratio", None);
-        assert_eq!(si.varied_value(&ratio, 0.4), "0.4");
+        assert_eq!(si.varied_value(&ratio, Number(0.4)), "0.4");
         assert_eq!(ratio.words(), "Poisson ratio of the material");
         assert_eq!(si.frequency_title(), "angular frequency ω / rad·s⁻¹");
         assert_eq!(normalised.frequency_title(), "angular frequency ω / τ⁻¹");

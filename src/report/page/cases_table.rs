@@ -130,10 +130,10 @@ fn columns(plan: &SweepPlan, records: &[CaseRecord]) -> Vec<Column> {
     )];
     for (axis, varied) in (plan.axes.iter()).flat_map(|axes| axes.over.iter().enumerate()) {
         let (name, heading) = (varied.column(), varied.name());
-        let values: Vec<_> = numbers(&|r| r.varied.get(axis));
-        let name_of = |value: &Option<f64>| Some(varied.block_name((*value)?)?.to_owned());
+        let values: Vec<_> = numbers(&|r| Some(r.varied.get(axis)?.as_number()));
+        let name_of = |r: &CaseRecord| Some(varied.block_name(r.varied.get(axis)?)?.to_owned());
         columns.push(Column {
-            names: values.iter().filter_map(name_of).collect(),
+            names: records.iter().filter_map(name_of).collect(),
             ..Column::new(&name, &heading, varied.dimension, None, values)
         });
     }

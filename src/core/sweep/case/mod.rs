@@ -30,7 +30,7 @@ use crate::sweep::case::levels::{Effort, Levels};
 pub use crate::sweep::case::recording::sample;
 use crate::sweep::case::solid::Solid;
 use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised, Wanted};
-use crate::sweep::plan::check::check_frequency;
+use crate::sweep::plan::check::check_positive;
 use crate::sweep::plan::layer::LayerPlan;
 pub use crate::sweep::plan::setup::SetupError;
 use crate::sweep::plan::{Case, Condition, CyclePlan, SweepPlan};
@@ -337,7 +337,12 @@ impl Setup {
         (checkpoints, interrupt): (Option<&Checkpoints>, &AtomicBool),
         effort: &mut Effort,
     ) -> Result<Stabilised, CaseError> {
-        check_frequency(case.angular_frequency_rad_per_s).map_err(SetupError::from)?;
+        check_positive(
+            "angular frequency",
+            case.angular_frequency_rad_per_s,
+            "rad/s",
+        )
+        .map_err(SetupError::from)?;
         let solid = self.solid(&case.condition)?;
         let contact = Contact {
             solid: &solid,

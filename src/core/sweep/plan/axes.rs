@@ -43,7 +43,7 @@ pub struct Varied {
     pub key: Cow<'static, str>,
     /// `None` for a bare number.
     pub dimension: Option<Dimension>,
-    /// What the blocks are called that take the place of one another, of which the value is the place in this list, counted from 0;
+    /// What the blocks are called that take the place of one another, of which [`AxisValue::Block`] is the place in this list;
     /// empty where a number varies.
     pub names: Arc<[String]>,
 }
@@ -57,47 +57,79 @@ pub enum Block {
     Drive,
 }
 
-/// The varied numbers of a condition (SI units), in the order of the axes; of none in a sweep over frequency alone. Written as a number
-/// where there is one axis, else as a list.
-#[derive(Debug, Clone, Copy, Default, PartialEq, PartialOrd)]
+/// What an axis has under a condition.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Serialize, Deserialize)]
+pub enum AxisValue {
+    /// A number (SI units).
+    Number(f64),
+    /// The block at this place, counted from 0, of [`Varied::names`].
+    Block(usize),
+}
+
+/// What the axes have under a condition, in their order; nothing in a sweep over frequency alone.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub struct AxisValues {
     count: usize,
     /// Zero beyond the count.
-    values: [f64; MOST],
+    values: [AxisValue; MOST],
+}
+
+impl AxisValue {
+    /// The number, where it is one.
+    pub const fn number(self) -> Option<f64> {
+        match self {
+            Self::Number(value) => Some(value),
+            Self::Block(_) => None,
+        }
+    }
+
+    /// The number, or the place of the block, where only numbers can stand.
+    pub const fn as_number(self) -> f64 {
+        match self {
+            Self::Number(value) => value,
+            Self::Block(place) => place as f64,
+        }
+    }
+}
+
+impl Default for AxisValues {
+    fn default() -> Self {
+        Self {
+            count: 0,
+            values: [AxisValue::Number(0.0); MOST],
+        }
+    }
 }
 
 impl AxisValues {
     /// These values; `None` of more than [`MOST`].
-    pub fn new(values: &[f64]) -> Option<Self> {
-        let mut all = [0.0; MOST];
-        all.get_mut(..values.len())?.copy_from_slice(values);
-        Some(Self {
-            count: values.len(),
-            values: all,
-        })
+    pub fn new(values: &[AxisValue]) -> Option<Self> {
+        let mut all = Self::default();
+        all.values.get_mut(..values.len())?.copy_from_slice(values);
+        all.count = values.len();
+        Some(all)
     }
 
     /// One value.
-    pub const fn one(value: f64) -> Self {
-        Self {
-            count: 1,
-            values: [value, 0.0, 0.0, 0.0],
-        }
+    pub fn one(value: AxisValue) -> Self {
+        let mut one = Self::default();
+        (one.count, one.values[0]) = (1, value);
+        one
     }
 
     /// All of them.
-    pub fn all(&self) -> &[f64] {
+    pub fn all(&self) -> &[AxisValue] {
         &self.values[..self.count]
     }
 
     /// That of one axis.
-    pub fn get(&self, axis: usize) -> Option<f64> {
+    pub fn get(&self, axis: usize) -> Option<AxisValue> {
         self.all().get(axis).copied()
     }
 
-    /// That of the first axis.
-    pub fn first(&self) -> Option<f64> {
-        self.get(0)
+    /// The number of the first axis, where it varies one.
+    pub fn first_number(&self) -> Option<f64> {
+        self.get(0)?.number()
     }
 
     /// That of one axis without the others.
@@ -106,11 +138,13 @@ impl AxisValues {
         self.get(axis).map(Self::one).unwrap_or_default()
     }
 
-    /// The same with other places of the blocks of a list on an axis; of numbers, which have no places, what they are.
+    /// The same of an axis over blocks, whose places are these in another list. Text does not tell places from numbers.
     #[must_use]
-    pub fn placed(mut self, axis: usize, places: &[f64]) -> Self {
-        if let Some(value) = self.values[..self.count].get_mut(axis) {
-            *value = places.get(*value as usize).copied().unwrap_or(*value);
+    pub fn placed(mut self, axis: usize, places: &[usize]) -> Self {
+        if let Some(value) = self.values[..self.count].get_mut(axis)
+            && let Some(place) = places.get(value.as_number() as usize)
+        {
+            *value = AxisValue::Block(*place);
         }
         self
     }
@@ -121,13 +155,15 @@ impl AxisValues {
     }
 }
 
-/// In text as the numbers that a reader expects; records have a form that says less of itself, and there it is always a list.
+/// In text as numbers, blocks by their places: one alone, several as a list. Records keep which of the two they are.
 impl Serialize for AxisValues {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let numbers = || self.all().iter().copied().map(AxisValue::as_number);
         match self.all() {
-            [] if serializer.is_human_readable() => serializer.serialize_none(),
-            [one] if serializer.is_human_readable() => serializer.serialize_f64(*one),
-            all => all.serialize(serializer),
+            all if !serializer.is_human_readable() => all.serialize(serializer),
+            [] => serializer.serialize_none(),
+            [one] => serializer.serialize_f64(one.as_number()),
+            _ => serializer.collect_seq(numbers()),
         }
     }
 }
@@ -141,12 +177,13 @@ impl<'de> Deserialize<'de> for AxisValues {
             One(f64),
             Several(Vec<f64>),
         }
-        let values = match deserializer.is_human_readable() {
+        let numbers = |values: Vec<f64>| values.into_iter().map(AxisValue::Number).collect();
+        let values: Vec<AxisValue> = match deserializer.is_human_readable() {
             false => Vec::deserialize(deserializer)?,
             true => match Text::deserialize(deserializer)? {
                 Text::None => Vec::new(),
-                Text::One(value) => vec![value],
-                Text::Several(values) => values,
+                Text::One(value) => numbers(vec![value]),
+                Text::Several(values) => numbers(values),
             },
         };
         let too_many = || serde::de::Error::custom("more values than axes");
@@ -209,10 +246,11 @@ impl Varied {
     }
 
     /// What the block of a value is called; `None` where a number varies.
-    pub fn block_name(&self, value: f64) -> Option<&str> {
-        let names = self.is_whole().then_some(&self.names)?;
-        // Places are small integers, which a float holds exactly.
-        names.get(value as usize).map(String::as_str)
+    pub fn block_name(&self, value: AxisValue) -> Option<&str> {
+        match value {
+            AxisValue::Block(place) => self.names.get(place).map(String::as_str),
+            AxisValue::Number(_) => None,
+        }
     }
 
     /// The key as words: `half angle`, `time of relaxation.branches[0]`; of what the indenter is made of as of the body; of a whole
@@ -315,7 +353,7 @@ impl Axes {
     ) -> Result<Self, DriveError> {
         let under = |value| {
             Ok(Condition {
-                values: AxisValues::one(value),
+                values: AxisValues::one(AxisValue::Number(value)),
                 drive: varied.drive(&plan.base.drive, value)?,
                 ..plan.base.clone()
             })
@@ -334,14 +372,10 @@ impl Axes {
         self.over.first().cloned().unwrap_or_else(amplitude)
     }
 
-    /// The values of the first axis, in SI units, as often as there are conditions.
-    pub fn values(&self) -> impl DoubleEndedIterator<Item = f64> + '_ {
-        self.conditions.iter().filter_map(Condition::value)
-    }
-
-    /// The values of an axis in ascending order, each once; of pairs in the order of the pairs.
-    pub fn values_of(&self, axis: usize) -> Vec<f64> {
-        let values = self.conditions.iter().filter_map(|c| c.values.get(axis));
+    /// The numbers (SI units) of an axis that varies one in ascending order, each once; of pairs in the order of the pairs.
+    pub fn numbers_of(&self, axis: usize) -> Vec<f64> {
+        let values = self.conditions.iter();
+        let values = values.filter_map(|c| c.values.get(axis)?.number());
         let mut values: Vec<f64> = values.collect();
         if !self.pairs {
             values.sort_by(f64::total_cmp);
@@ -386,9 +420,9 @@ impl Axes {
 }
 
 impl Condition {
-    /// The number that the first axis varies (SI units); `None` in a sweep over frequency alone.
-    pub fn value(&self) -> Option<f64> {
-        self.values.first()
+    /// The number that the first axis varies (SI units); `None` where it varies none.
+    pub fn number(&self) -> Option<f64> {
+        self.values.first_number()
     }
 }
 
@@ -403,12 +437,19 @@ mod tests {
             (&[0.1], "0.1"),
             (&[0.1, 3.0, -1e-300, 4.0], "[0.1,3.0,-1e-300,4.0]"),
         ] {
-            let values = AxisValues::new(values).unwrap();
+            let values: Vec<_> = values.iter().copied().map(AxisValue::Number).collect();
+            let values = AxisValues::new(&values).unwrap();
             assert_eq!(serde_json::to_string(&values).unwrap(), text);
             assert_eq!(serde_json::from_str::<AxisValues>(text).unwrap(), values);
             let bytes = postcard::to_stdvec(&values).unwrap();
             assert_eq!(postcard::from_bytes::<AxisValues>(&bytes).unwrap(), values);
         }
+        let places = AxisValues::new(&[AxisValue::Number(0.1), AxisValue::Block(2)]).unwrap();
+        assert_eq!(serde_json::to_string(&places).unwrap(), "[0.1,2.0]");
+        let bytes = postcard::to_stdvec(&places).unwrap();
+        assert_eq!(postcard::from_bytes::<AxisValues>(&bytes).unwrap(), places);
+        let read: AxisValues = serde_json::from_str("[0.1,2.0]").unwrap();
+        assert_eq!(read.placed(1, &[5, 4, 2]), places);
         assert!(serde_json::from_str::<AxisValues>("[1,2,3,4,5]").is_err());
         assert!(serde_json::from_str::<AxisValues>("\"one\"").is_err());
     }

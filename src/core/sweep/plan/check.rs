@@ -14,12 +14,12 @@ use crate::sweep::plan::{Condition, CyclePlan, Method, SweepPlan};
 pub enum PlanError {
     #[error("the sweep has no frequency; give at least one")]
     NoFrequency,
-    #[error(
-        "the angular frequency is {angular_frequency_rad_per_s} rad/s; it must be positive and finite"
-    )]
-    Frequency { angular_frequency_rad_per_s: f64 },
-    #[error("the layer's thickness is {thickness_m} m; it must be positive and finite")]
-    Thickness { thickness_m: f64 },
+    #[error("the {what} is {value} {unit}; it must be positive and finite")]
+    NotPositive {
+        what: &'static str,
+        value: f64,
+        unit: &'static str,
+    },
     #[error(
         "a base that yields is bonded to its layer, has from {} to {} of its shear modulus, and a Poisson ratio above -1 and at most 0.5",
         YieldingBase::SOFTEST,
@@ -43,28 +43,18 @@ pub enum PlanError {
         SweepPlan::MAX_CASES
     )]
     Cases { cases: usize },
-    #[error("{what} = {value}; it must be from {least} to {most}")]
-    Count {
+    #[error("{what} = {value}; it must be {range}")]
+    OutOfRange {
         what: &'static str,
-        value: usize,
-        least: usize,
-        most: usize,
+        value: String,
+        range: String,
     },
-    #[error("the work of adhesion is {work_j_per_m2} J/m^2; it must be positive and finite")]
-    WorkOfAdhesion { work_j_per_m2: f64 },
     #[error("adhesion is known of a sphere under a prescribed load only")]
     AdhesionOfOther,
     #[error(
         "a cycle by its number is one of a march, and the method is a direct search, which knows no such cycles"
     )]
     CycleOfASearch,
-    #[error("{what} = {value:e}; it must be at least {least:e} and below {limit}")]
-    Ratio {
-        what: &'static str,
-        value: f64,
-        least: f64,
-        limit: f64,
-    },
 }
 
 impl SweepPlan {
@@ -88,7 +78,7 @@ impl SweepPlan {
         let omegas = &self.angular_frequencies_rad_per_s;
         omegas
             .iter()
-            .try_for_each(|omega| check_frequency(*omega))?;
+            .try_for_each(|omega| check_positive("angular frequency", *omega, "rad/s"))?;
         check_order("angular frequency (rad/s)", omegas)?;
         if let Some(axes) = &self.axes {
             let lacks_one = |c: &Condition| c.values.all().len() != axes.over.len();
@@ -97,7 +87,9 @@ impl SweepPlan {
                 return Err(PlanError::NoCondition);
             }
             if let [varied] = &axes.over[..] {
-                check_order(&varied.key, &axes.values().collect::<Vec<_>>())?;
+                let values = axes.conditions.iter().flat_map(|c| c.values.all());
+                let values: Vec<f64> = values.map(|value| value.as_number()).collect();
+                check_order(&varied.key, &values)?;
             }
         }
         let cases = self.conditions().len().saturating_mul(omegas.len());
@@ -150,14 +142,15 @@ impl SolverPlan {
     }
 }
 
-/// Refuses an angular frequency (rad/s) that is not positive and finite.
-pub(crate) fn check_frequency(angular_frequency_rad_per_s: f64) -> Result<(), PlanError> {
-    let omega = angular_frequency_rad_per_s;
-    match omega.is_finite() && omega > 0.0 {
+/// Refuses a value in this unit that is not positive and finite.
+pub(crate) fn check_positive(
+    what: &'static str,
+    value: f64,
+    unit: &'static str,
+) -> Result<(), PlanError> {
+    match value.is_finite() && value > 0.0 {
         true => Ok(()),
-        false => Err(PlanError::Frequency {
-            angular_frequency_rad_per_s,
-        }),
+        false => Err(PlanError::NotPositive { what, value, unit }),
     }
 }
 
@@ -180,11 +173,10 @@ pub(crate) fn check_count(
 ) -> Result<(), PlanError> {
     match range.contains(&value) {
         true => Ok(()),
-        false => Err(PlanError::Count {
+        false => Err(PlanError::OutOfRange {
             what,
-            value,
-            least: *range.start(),
-            most: *range.end(),
+            value: value.to_string(),
+            range: format!("from {} to {}", range.start(), range.end()),
         }),
     }
 }
@@ -192,11 +184,10 @@ pub(crate) fn check_count(
 fn check_ratio(what: &'static str, value: f64, range: &Range<f64>) -> Result<(), PlanError> {
     match range.contains(&value) {
         true => Ok(()),
-        false => Err(PlanError::Ratio {
+        false => Err(PlanError::OutOfRange {
             what,
-            value,
-            least: range.start,
-            limit: range.end,
+            value: format!("{value:e}"),
+            range: format!("at least {:e} and below {}", range.start, range.end),
         }),
     }
 }

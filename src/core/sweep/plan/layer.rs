@@ -6,7 +6,7 @@
 use crate::contact::half_space::layer::{Base, Layer, YieldingBase};
 use crate::engine::EngineError;
 use crate::quantity::{Dimension, format_human};
-use crate::sweep::plan::check::PlanError;
+use crate::sweep::plan::check::{PlanError, check_positive};
 use crate::sweep::plan::resolved::{entry, quoted};
 
 /// A layer of the plan's material on a base.
@@ -92,11 +92,7 @@ impl LayerPlan {
     }
 
     pub(crate) fn check(&self) -> Result<(), PlanError> {
-        if !(self.thickness_m.is_finite() && self.thickness_m > 0.0) {
-            return Err(PlanError::Thickness {
-                thickness_m: self.thickness_m,
-            });
-        }
+        check_positive("layer's thickness", self.thickness_m, "m")?;
         let Some(base) = self.yielding else {
             return Ok(());
         };

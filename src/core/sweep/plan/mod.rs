@@ -10,7 +10,7 @@ mod material_text;
 pub mod resolved;
 pub mod setup;
 
-pub use axes::{Axes, AxisValues, Block, Varied};
+pub use axes::{Axes, AxisValue, AxisValues, Block, Varied};
 
 use std::sync::Arc;
 
@@ -108,7 +108,7 @@ impl SweepPlan {
         let names = varied.names.iter().enumerate();
         let first = names.filter_map(|(place, name)| {
             let mut conditions = axes.conditions.iter();
-            let first = conditions.find(|c| c.values.get(axis) == Some(place as f64));
+            let first = conditions.find(|c| c.values.get(axis) == Some(AxisValue::Block(place)));
             Some((Some(name.as_str()), first?))
         });
         first.collect()

@@ -13,7 +13,7 @@ use crate::quantity::{Dimension, format_si};
 pub(crate) use crate::sweep::plan::material_text::compressibility_line;
 use crate::sweep::plan::material_text::text_over_temperatures;
 pub use crate::sweep::plan::material_text::{material_text, material_text_without_poisson_ratio};
-use crate::sweep::plan::{Axes, Block, Condition, CyclePlan, SweepPlan, Varied};
+use crate::sweep::plan::{Axes, AxisValue, Block, Condition, CyclePlan, SweepPlan, Varied};
 
 /// The plan as the text of a sweep file.
 pub fn resolved_text(plan: &SweepPlan) -> String {
@@ -81,7 +81,7 @@ fn numbers_text(axes: &Axes) -> String {
             Some(dimension) => quoted(value, dimension),
             None => format!("{value:?}"),
         };
-        let values: Vec<String> = axes.values_of(axis).into_iter().map(number).collect();
+        let values: Vec<String> = axes.numbers_of(axis).into_iter().map(number).collect();
         // Beside a list of blocks the key would be one of a table in its place.
         let quote = match varied.is_nested() || axes.whole(varied.block).is_some() {
             true => "\"",
@@ -159,7 +159,7 @@ fn listed_text(plan: &SweepPlan, axis: usize, varied: &Varied) -> String {
     let conditions = plan.conditions();
     let mut text = String::new();
     for (place, name) in varied.names.iter().enumerate() {
-        let is_meant = |c: &&Condition| c.values.get(axis) == Some(place as f64);
+        let is_meant = |c: &&Condition| c.values.get(axis) == Some(AxisValue::Block(place));
         let under = || conditions.iter().filter(is_meant);
         // Pairs and combinations have every block.
         let Some(first) = under().next() else {

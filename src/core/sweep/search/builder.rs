@@ -10,7 +10,7 @@ use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::sweep::case::{Setup, SetupError};
 use crate::sweep::plan::adhesion::AdhesionPlan;
-use crate::sweep::plan::check::PlanError;
+use crate::sweep::plan::check::{PlanError, check_positive};
 use crate::sweep::plan::{Axes, Case, Method, SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::{self, Options, Outcome, RunError};
@@ -131,9 +131,7 @@ impl Sweep {
     /// A work that is not positive and finite, another indenter than a sphere, a prescribed approach, a load at which the sphere comes
     /// off.
     pub fn attracted(self, work_j_per_m2: f64) -> Result<Self, SetupError> {
-        if !(work_j_per_m2.is_finite() && work_j_per_m2 > 0.0) {
-            return Err(PlanError::WorkOfAdhesion { work_j_per_m2 }.into());
-        }
+        check_positive("work of adhesion", work_j_per_m2, "J/m^2")?;
         let adhesion = AdhesionPlan {
             work_j_per_m2,
             equilibrium_distance_m: AdhesionPlan::EQUILIBRIUM_DISTANCE_M,

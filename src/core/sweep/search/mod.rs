@@ -278,7 +278,8 @@ impl<'a> Search<'a> {
 /// Curve after curve in the order of the conditions, each in ascending frequency.
 fn sort(records: &mut [CaseRecord], conditions: &[Condition]) {
     let bits = |values: AxisValues, drive: [f64; 2]| {
-        let numbers = values.all().iter().copied().chain(drive);
+        let numbers = values.all().iter().map(|value| value.as_number());
+        let numbers = numbers.chain(drive);
         numbers.map(f64::to_bits).collect::<Vec<_>>()
     };
     let of_condition = |c: &Condition| bits(c.values, [c.drive.mean(), c.drive.amplitude()]);

@@ -55,7 +55,7 @@ impl Key {
 
     fn new(purpose: Purpose, drive: [f64; 2], omega: f64, varied: AxisValues) -> Self {
         let numbers = drive.into_iter().chain([omega]);
-        let numbers = numbers.chain(varied.all().iter().copied());
+        let numbers = numbers.chain(varied.all().iter().map(|value| value.as_number()));
         Self {
             purpose,
             bits: numbers.map(f64::to_bits).collect(),
