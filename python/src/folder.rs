@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use contact_dma::indenter::{
-    DataFile, HEIGHT_UNITS, HeightMap, Indenter, MapLevel, MapQuantity, MapSource,
-};
+use contact_dma::indenter::{HeightMap, Indenter, MapQuantity, Parameter};
 use contact_dma::report::npy;
 use contact_dma::sweep::plan::resolved::hash_of_bytes;
 use contact_dma::sweep::store::{Store, StoreError, files};
@@ -12,7 +10,6 @@ use pyo3::PyResult;
 use std::path::Path;
 
 use crate::failure;
-use crate::shape::spacing_m;
 
 /// The file of the map.
 const NAME: &str = files::HEIGHT_MAP;
@@ -32,19 +29,12 @@ impl MapFile {
         let file = path.to_str().ok_or_else(|| {
             failure::of_value("the path of the folder is not UTF-8, and cannot be written down")
         })?;
-        let source = MapSource {
-            data: DataFile {
-                file: file.to_owned(),
-                sha256: hash_of_bytes(&bytes),
-            },
-            gives_places: false,
-            height_unit: HEIGHT_UNITS[0].1,
-            level: MapLevel::None,
-        };
-        let spacing_m = spacing_m(map)?;
-        let gaps = map.gaps_m().to_vec();
+        let (spacing_m, gaps) = (map.spacing_m(), map.gaps_m().to_vec());
         let same = HeightMap::new(map.cells(), spacing_m, gaps, MapQuantity::Gap, map.edge());
-        let same = same.map_err(failure::of_value)?.with_source(source);
+        let same = same.map_err(failure::of_value)?;
+        let mut parameters = Parameter::of_file(file, &hash_of_bytes(&bytes));
+        parameters.extend(same.parameters());
+        let same = same.made_from(HeightMap::SHAPE, parameters);
         Ok(Self {
             bytes,
             indenter: Arc::new(same),

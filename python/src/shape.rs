@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use contact_dma::indenter::{Domain, HeightMap, Indenter, MapEdge};
+use contact_dma::indenter::{HeightMap, Indenter, MapEdge};
 use contact_dma::input::document::Document;
 use contact_dma::input::field_file::Field;
 use contact_dma::input::given;
@@ -82,7 +82,7 @@ impl Shape {
     /// The block, without file, that a map of an array has together with its gaps.
     fn map_keys(&self) -> PyResult<String> {
         let map = self.map_of_array()?;
-        let (x_m, y_m) = spacing_m(map)?;
+        let (x_m, y_m) = map.spacing_m();
         let edge = match map.edge() {
             MapEdge::Unknown => "unknown",
             MapEdge::Rim => "rim",
@@ -121,18 +121,5 @@ impl Shape {
     /// The map, of one that has no file.
     pub fn map(&self) -> Option<&HeightMap> {
         self.map.as_deref()
-    }
-}
-
-/// Distance of the points of a map along x and y.
-pub fn spacing_m(map: &HeightMap) -> PyResult<(f64, f64)> {
-    // Of a map the domain is its own, whatever the contact.
-    match map.domain(0.0, 0.0) {
-        Domain::Cells {
-            spacing_x_m,
-            spacing_y_m,
-            ..
-        } => Ok((spacing_x_m, spacing_y_m)),
-        _ => Err(failure::of_run("a map without cells")),
     }
 }

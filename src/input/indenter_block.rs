@@ -18,20 +18,15 @@ use super::keys::indenter::{
     LEVEL, MAP_QUANTITY, MAP_SPACING, OFFSET, RADIUS, RADIUS_X, RADIUS_Y, RMS_HEIGHT,
     ROLL_OFF_WAVELENGTH, ROUGH_SIDE, ROUGH_SPACING, SEED, SHA256, SHAPE, SPHERE_RADIUS, Shape,
 };
+use super::map_values::MapReading;
 use super::material_block;
 use super::material_table::DirectSum;
 use crate::indenter::{
-    Asperities, Asperity, Cone, DataFile, Ellipsoid, FlatPunch, HEIGHT_UNITS, HeightMap,
-    HeightUnit, Indenter, IndenterError, MapEdge, MapLevel, MapSource, PowerLaw, Profile, Rough,
-    Roughness, Shifted, Sphere,
+    Asperities, Asperity, Cone, Ellipsoid, FlatPunch, HeightMap, Indenter, IndenterError,
+    Parameter, PowerLaw, Profile, Roughness, Shifted, Sphere,
 };
 use crate::material::Material;
 use crate::sweep::plan::resolved;
-
-/// The median slope of a map above which it is no surface in contact. Of rough surfaces, paraboloids, punches with walls and maps
-/// with 5 % of bad points the median was at most 0.6 (a cone 30 degrees from flat); the same heights in micrometres read as metres
-/// gave 2e4 and more. The root mean square is above 1 for walls and bad points, too.
-const STEEPEST_MAP: f64 = 1.0;
 
 /// A shape, or nothing where a problem was reported.
 type Made = Option<Arc<dyn Indenter>>;
@@ -78,7 +73,7 @@ pub(super) fn map_of(table: TableReader<'_>, field: Field) -> Option<HeightMap> 
     let named = Named {
         place,
         name: "array".to_owned(),
-        source: None,
+        source: Vec::new(),
     };
     let (place, map) = block.map(|_| Some((field, named)))?;
     let problems = block.0.problems();
@@ -182,7 +177,7 @@ impl Block<'_> {
         let (seed, sphere) = (table.value(&SEED), table.value(&SPHERE_RADIUS));
         let edge = table.value(&EDGE);
         let hurst = hurst?;
-        let made = Rough::new(Roughness {
+        let roughness = Roughness {
             cells: cells?,
             spacing_m: spacing_m?,
             hurst_exponent: hurst.value,
@@ -192,8 +187,8 @@ impl Block<'_> {
             seed: seed? as u64,
             sphere_radius_m: sphere?,
             edge: edge?,
-        });
-        match made {
+        };
+        match roughness.map() {
             refused @ Err(IndenterError::Hurst { .. }) => self.made(&hurst, refused),
             other => self.made(shape, other),
         }
@@ -227,10 +222,7 @@ impl Block<'_> {
             problems.at(&place, message).help("rename the folder");
             return None;
         };
-        let source = Some(DataFile {
-            file: absolute.to_owned(),
-            sha256: hash,
-        });
+        let source = Parameter::of_file(absolute, &hash);
         let made = data_file::accepted(make(&name, &bytes), &place, problems)?;
         let named = Named {
             place,
@@ -242,10 +234,7 @@ impl Block<'_> {
 
     fn profile(&mut self) -> Made {
         let (points, file) = self.of_file(field_file::profile)?;
-        let profile = Profile::new(&points).map(|profile| match file.source {
-            Some(source) => profile.with_source(source),
-            None => profile,
-        });
+        let profile = Profile::new(&points).map(|profile| profile.made_from(file.source));
         self.made(&file.place, profile)
     }
 
@@ -280,95 +269,39 @@ impl Block<'_> {
                 return None;
             }
         };
-        let is_file = named.source.is_some();
-        let source = MapSource {
-            data: named.source.clone().unwrap_or_else(|| DataFile {
-                file: String::new(),
-                sha256: String::new(),
-            }),
+        let reading = MapReading {
             gives_places: field.spacing_m.is_some(),
-            height_unit: unit?,
+            unit_per_m: unit?,
             level: level?,
         };
-        if let (true, Some(unit)) = (source.gives_places, unit_given) {
+        if let (true, Some(unit)) = (reading.gives_places, unit_given) {
             let message = "the file names its columns, and with them their unit";
             problems.at(&unit, message).help("remove `height_unit`");
             return None;
         }
-        let per_m = source.height_unit.per_m;
-        field.values_m.iter_mut().for_each(|z| *z /= per_m);
-        source.level.take_off(field.cells_x, &mut field.values_m);
-        let cells = (field.cells_x, field.cells_y);
-        let map = HeightMap::new(cells, spacing_m, field.values_m, quantity?, edge?);
-        if let Ok(map) = &map {
-            let refused = too_steep(map, &source, &named.name)
-                .or_else(|| at_border(map, &source, &named.name));
-            if let Some((message, because, help)) = refused {
-                let report = problems.at(&named.place, message);
-                report.because(because).help(help);
-                return None;
-            }
+        let values_m = &mut field.values_m;
+        values_m.iter_mut().for_each(|z| *z /= reading.unit_per_m);
+        reading.level.subtract(field.cells_x, values_m);
+        let (cells, quantity, edge) = ((field.cells_x, field.cells_y), quantity?, edge?);
+        let map = HeightMap::new(cells, spacing_m, field.values_m, quantity, edge);
+        if let Ok(map) = &map
+            && let Some((message, because, help)) = reading.refusal(map, &named.name)
+        {
+            let report = problems.at(&named.place, message);
+            report.because(because).help(help);
+            return None;
         }
-        let map = match is_file {
-            true => map.map(|map| map.with_source(source)),
-            false => map,
+        let map = match named.source.is_empty() {
+            true => map,
+            false => map.map(|map| {
+                let mut parameters = named.source;
+                let own = map.parameters().into_iter();
+                parameters.extend(own.filter_map(|own| reading.parameter(own)));
+                map.made_from(HeightMap::SHAPE, parameters)
+            }),
         };
         Some((named.place, map))
     }
-}
-
-/// Why a map is refused: the message, what is said at its place, and what to write instead.
-type Refusal = (String, String, String);
-
-/// Refuses a map that is steep all over: its heights are in another unit than they are read in, or it is tilted.
-fn too_steep(map: &HeightMap, source: &MapSource, name: &str) -> Option<Refusal> {
-    let slope = map.median_slope();
-    if slope <= STEEPEST_MAP {
-        return None;
-    }
-    let read_in = source.height_unit;
-    let is_cure = |unit: &HeightUnit| slope * read_in.per_m / unit.per_m <= STEEPEST_MAP;
-    let named = HEIGHT_UNITS.iter().filter(|(key, unit)| *key == unit.name);
-    let units: Vec<String> = named
-        .filter(|(_, unit)| is_cure(unit))
-        .map(|(key, _)| format!("height_unit = \"{key}\""))
-        .collect();
-    let tilted = map.without_plane().median_slope() <= STEEPEST_MAP;
-    let help = match (tilted, source.gives_places) {
-        (true, _) => "if the map is tilted, write level = \"plane\"".to_owned(),
-        (_, true) => "convert the column z_m to metres".to_owned(),
-        _ if units.is_empty() => "check heights and `spacing`".to_owned(),
-        _ => format!(
-            "write the unit that the heights are in, {}, and check `spacing`",
-            units.join(" or ")
-        ),
-    };
-    Some((
-        format!("`{name}`: half of the map is steeper than {slope:.1e}"),
-        format!(
-            "contact is computed for slopes far below 1; heights are read in {}",
-            read_in.name
-        ),
-        help,
-    ))
-}
-
-/// Refuses a map whose contact begins where its data end.
-fn at_border(map: &HeightMap, source: &MapSource, name: &str) -> Option<Refusal> {
-    let (MapEdge::Unknown, Some((column, row))) = (map.edge(), map.touches_at_border()) else {
-        return None;
-    };
-    let tilted =
-        source.level != MapLevel::Plane && map.without_plane().touches_at_border().is_none();
-    let help = match tilted {
-        true => "if the map is tilted, write level = \"plane\"",
-        false => "give a map that reaches further, or edge = \"rim\" where the indenter ends there",
-    };
-    Some((
-        format!("`{name}`: the map touches first on its border, at column {column}, row {row}"),
-        "beyond the border the shape is not known".to_owned(),
-        help.to_owned(),
-    ))
 }
 
 /// Where data come from.
@@ -377,6 +310,6 @@ struct Named {
     place: Located<String>,
     /// What messages call them.
     name: String,
-    /// The file, where they are from one.
-    source: Option<DataFile>,
+    /// The settings that name the file, where they are from one.
+    source: Vec<Parameter>,
 }

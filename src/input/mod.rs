@@ -50,6 +50,7 @@ pub mod key_reference;
 pub mod keys;
 mod layer_block;
 pub mod loop_file;
+mod map_values;
 pub(crate) mod material_block;
 pub(crate) mod material_dynamic;
 mod material_fractional;

@@ -11,8 +11,7 @@ use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
 use contact_dma::contact::{Engine, Instant, Prescribed, Solution};
 use contact_dma::history::{March, TimeRule};
 use contact_dma::indenter::{
-    Asperities, Asperity, Ellipsoid, FlatPunch, Indenter, MapEdge, Rough, Roughness, Shifted,
-    Sphere,
+    Asperities, Asperity, Ellipsoid, FlatPunch, Indenter, MapEdge, Roughness, Shifted, Sphere,
 };
 use contact_dma::material::{Creep, CreepBranch};
 use contact_dma::reference::transient::step_load_contact_radius_m;
@@ -121,7 +120,7 @@ fn assert_same_radius(one: &Solution, other: &Solution) {
 #[test]
 fn a_rough_surface_takes_few_iterations_and_has_the_answer_of_the_safe_way() {
     let spacing_m = 6.4e-5 / 512.0;
-    let rough = Rough::new(Roughness {
+    let rough = Roughness {
         cells: 512,
         spacing_m,
         hurst_exponent: 0.8,
@@ -131,10 +130,10 @@ fn a_rough_surface_takes_few_iterations_and_has_the_answer_of_the_safe_way() {
         seed: 2018,
         sphere_radius_m: Some(1e-4),
         edge: MapEdge::Unknown,
-    })
-    .unwrap();
+    };
+    let rough = rough.map().unwrap();
     let load = Prescribed::LoadN(0.02);
-    let gaps = rough.map().gaps_m().to_vec();
+    let gaps = rough.gaps_m().to_vec();
     let operator = Arc::new(Convolution::new(Grid::square(512, spacing_m).unwrap()).unwrap());
     let new = || {
         HalfSpace::new(

@@ -15,7 +15,7 @@ use contact_dma::engine::domain;
 use contact_dma::history::{March, TimeRule};
 use contact_dma::indenter::{
     Asperities, Asperity, Cone, Ellipsoid, HeightMap, Indenter, MapEdge, MapQuantity, PowerLaw,
-    Profile, Rough, Roughness, Shifted, Sphere,
+    Profile, Roughness, Shifted, Sphere,
 };
 use contact_dma::input::document::Document;
 use contact_dma::input::sweep_file;
@@ -348,12 +348,12 @@ const ROUGH_LOAD_N: f64 = 0.02;
 #[test]
 fn a_transposed_or_flipped_surface_gives_the_transposed_or_flipped_answer() {
     let n = 64;
-    let rough = Rough::new(roughness(n)).unwrap();
+    let rough = roughness(n).map().unwrap();
     let transpose = |index: usize| index % n * n + index / n;
     let flip = |index: usize| index / n * n + (n - 1 - index % n);
     let spacing = (6.4e-5 / n as f64, 6.4e-5 / n as f64);
     let map = |order: &dyn Fn(usize) -> usize| {
-        let values = (0..n * n).map(|i| rough.map().gaps_m()[order(i)]).collect();
+        let values = (0..n * n).map(|i| rough.gaps_m()[order(i)]).collect();
         let gap = MapQuantity::Gap;
         HeightMap::new((n, n), spacing, values, gap, MapEdge::Unknown).unwrap()
     };
@@ -377,7 +377,7 @@ fn a_transposed_or_flipped_surface_gives_the_transposed_or_flipped_answer() {
 #[test]
 fn a_rough_contact_on_pmma_is_complementary_and_grows_as_the_body_creeps() {
     let creep = pmma();
-    let rough = Rough::new(roughness(96)).unwrap();
+    let rough = roughness(96).map().unwrap();
     let grid = own_grid(&rough);
     let gaps_m = domain::gaps_m(&rough, &grid);
     let mut engine = engine(&rough, grid, 1e-9);
@@ -422,14 +422,14 @@ fn a_rough_contact_on_pmma_is_complementary_and_grows_as_the_body_creeps() {
 #[test]
 fn a_rough_contact_that_creeps_does_not_depend_on_the_order_of_the_cells() {
     let n = 48;
-    let rough = Rough::new(roughness(n)).unwrap();
+    let rough = roughness(n).map().unwrap();
     let transpose = |index: usize| index % n * n + index / n;
     let flip = |index: usize| index / n * n + (n - 1 - index % n);
     let same = |index: usize| index;
     let spacing = (6.4e-5 / n as f64, 6.4e-5 / n as f64);
     // Pressure and contact radius at the end of a step load on PMMA, in the order of the plain surface.
     let crept = |order: &dyn Fn(usize) -> usize| {
-        let values = (0..n * n).map(|i| rough.map().gaps_m()[order(i)]).collect();
+        let values = (0..n * n).map(|i| rough.gaps_m()[order(i)]).collect();
         let gap = MapQuantity::Gap;
         let map = HeightMap::new((n, n), spacing, values, gap, MapEdge::Unknown).unwrap();
         let mut engine = engine(&map, own_grid(&map), 1e-11);
@@ -477,16 +477,13 @@ fn a_surface_whose_contact_reaches_its_border_says_so_and_one_with_a_rim_does_no
         sphere_radius_m: None,
         ..roughness(48)
     };
-    let open = Rough::new(flat).unwrap();
+    let open = flat.map().unwrap();
     assert!(matches!(
         try_solve(&open, own_grid(&open), 5.0),
         Err(ContactError::ReachedEdge { .. })
     ));
-    let rim = Rough::new(Roughness {
-        edge: MapEdge::Rim,
-        ..flat
-    })
-    .unwrap();
+    let edge = MapEdge::Rim;
+    let rim = Roughness { edge, ..flat }.map().unwrap();
     let found = try_solve(&rim, own_grid(&rim), 5.0).unwrap();
     assert!(off(found.load_n(|_, _| true), 5.0) < 1e-9);
     // Moved by whole cells the border of the data lies inside the grid, and still counts.

@@ -1,6 +1,6 @@
 //! The height map: a measured or computed indenter, given by one value per cell of a regular grid.
 
-use super::{DataFile, Domain, Indenter, IndenterError, Parameter, Value};
+use super::{Domain, Indenter, IndenterError, Parameter, Value};
 use crate::quantity::Dimension;
 
 /// Fewest points of a map in each direction: a contact needs a border of cells around it.
@@ -31,97 +31,6 @@ pub enum MapEdge {
     Periodic,
 }
 
-/// What is taken off the values of a map before they count.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum MapLevel {
-    None,
-    /// Their mean, which leaves the gap as it is: that counts from the point that touches first.
-    Mean,
-    /// The plane through them by least squares: the tilt of the instrument.
-    Plane,
-}
-
-/// The unit of the values of a map.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HeightUnit {
-    /// The name as written in a sweep file.
-    pub name: &'static str,
-    /// How many of it make a metre, to which values are brought by a single rounding.
-    pub per_m: f64,
-}
-
-const fn unit(name: &'static str, per_m: f64) -> (&'static str, HeightUnit) {
-    (name, HeightUnit { name, per_m })
-}
-
-/// Units of heights by their names, the one that counts where none is given first.
-pub const HEIGHT_UNITS: [(&str, HeightUnit); 6] = [
-    unit("m", 1.0),
-    unit("mm", 1e3),
-    unit("um", 1e6),
-    ("µm", unit("um", 1e6).1),
-    unit("nm", 1e9),
-    unit("pm", 1e12),
-];
-
-/// The file a map was read from, and how it was read.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MapSource {
-    pub data: DataFile,
-    /// Whether the file gives the place of every point in metres, and with it the spacing and the unit of the heights.
-    pub gives_places: bool,
-    pub height_unit: HeightUnit,
-    pub level: MapLevel,
-}
-
-impl MapLevel {
-    /// Names as written in a sweep file.
-    pub const NAMES: [(&'static str, Self); 3] = [
-        ("none", Self::None),
-        ("mean", Self::Mean),
-        ("plane", Self::Plane),
-    ];
-
-    /// Takes it off values given row by row, `cells_x` in a row.
-    pub fn take_off(self, cells_x: usize, values: &mut [f64]) {
-        let count = values.len() as f64;
-        if self == Self::None || values.is_empty() {
-            return;
-        }
-        let mean = values.iter().sum::<f64>() / count;
-        values.iter_mut().for_each(|z| *z -= mean);
-        if self == Self::Mean {
-            return;
-        }
-        // About the middle of a grid the two directions do not mix, and either slope is a quotient of two sums.
-        let cells_y = values.len() / cells_x;
-        let middle = |cells: usize| 0.5 * (cells as f64 - 1.0);
-        let place = |at: usize| {
-            let (column, row) = (at % cells_x, at / cells_x);
-            [
-                column as f64 - middle(cells_x),
-                row as f64 - middle(cells_y),
-            ]
-        };
-        let (mut moment, mut inertia) = ([0.0; 2], [0.0; 2]);
-        for (at, z) in values.iter().enumerate() {
-            let place = place(at);
-            for axis in 0..2 {
-                moment[axis] += place[axis] * z;
-                inertia[axis] += place[axis] * place[axis];
-            }
-        }
-        let slope = [0, 1].map(|axis| match inertia[axis] > 0.0 {
-            true => moment[axis] / inertia[axis],
-            false => 0.0,
-        });
-        for (at, z) in values.iter_mut().enumerate() {
-            let [x, y] = place(at);
-            *z -= slope[0] * x + slope[1] * y;
-        }
-    }
-}
-
 impl MapQuantity {
     /// Names as written in a sweep file.
     pub const NAMES: [(&'static str, Self); 2] = [("height", Self::Height), ("gap", Self::Gap)];
@@ -135,7 +44,8 @@ impl MapEdge {
         ("periodic", Self::Periodic),
     ];
 
-    pub(super) fn parameter(self) -> Parameter {
+    /// The key `edge`.
+    pub fn parameter(self) -> Parameter {
         Parameter::choice("edge", &Self::NAMES, self)
     }
 }
@@ -152,9 +62,9 @@ pub struct HeightMap {
     spacing_y_m: f64,
     /// Row by row, x fastest, rows in the order of ascending y.
     gap_m: Vec<f64>,
-    quantity: MapQuantity,
     edge: MapEdge,
-    source: Option<MapSource>,
+    shape: &'static str,
+    parameters: Vec<Parameter>,
 }
 
 impl HeightMap {
@@ -189,22 +99,34 @@ impl HeightMap {
                 value: values_m[at],
             });
         }
+        let (spacing_x_m, spacing_y_m) = spacing_m;
+        let spacing = Value::Quantities(vec![spacing_x_m, spacing_y_m], Dimension::Length);
         Ok(Self {
             cells_x,
             cells_y,
-            spacing_x_m: super::positive_length("spacing", spacing_m.0)?,
-            spacing_y_m: super::positive_length("spacing", spacing_m.1)?,
+            spacing_x_m: super::positive_length("spacing", spacing_x_m)?,
+            spacing_y_m: super::positive_length("spacing", spacing_y_m)?,
             gap_m: gap_from(values_m, quantity),
-            quantity,
             edge,
-            source: None,
+            shape: Self::SHAPE,
+            parameters: vec![
+                Parameter::choice("quantity", &MapQuantity::NAMES, quantity),
+                Parameter::new("spacing", spacing),
+                Parameter::text("height_unit", "m"),
+                Parameter::text("level", "none"),
+                edge.parameter(),
+            ],
         })
     }
 
-    /// The same map, which remembers the file it was read from.
-    pub fn with_source(self, source: MapSource) -> Self {
+    /// The shape of a map of values, as written in a sweep file.
+    pub const SHAPE: &'static str = "height-map";
+
+    /// The same map under the shape and the settings from which it was made: a file, or a rough surface.
+    pub fn made_from(self, shape: &'static str, parameters: Vec<Parameter>) -> Self {
         Self {
-            source: Some(source),
+            shape,
+            parameters,
             ..self
         }
     }
@@ -214,45 +136,9 @@ impl HeightMap {
         (self.cells_x, self.cells_y)
     }
 
-    /// The slope that half of the map does not exceed. It tells heights in another unit than they are read in, whatever walls,
-    /// flat parts and bad points a map has: on surfaces that small slopes describe it is far below 1, on the same heights in
-    /// micrometres read as metres far above.
-    pub fn median_slope(&self) -> f64 {
-        let (last_x, last_y) = (self.cells_x - 1, self.cells_y - 1);
-        let slope = |at: usize| {
-            let cell = at / last_x * self.cells_x + at % last_x;
-            let along_x = (self.gap_m[cell + 1] - self.gap_m[cell]) / self.spacing_x_m;
-            let along_y = (self.gap_m[cell + self.cells_x] - self.gap_m[cell]) / self.spacing_y_m;
-            along_x.hypot(along_y)
-        };
-        let mut slopes: Vec<f64> = (0..last_x * last_y).map(slope).collect();
-        let middle = slopes.len() / 2;
-        *slopes.select_nth_unstable_by(middle, f64::total_cmp).1
-    }
-
-    /// The same map without the plane through its points.
-    pub fn without_plane(&self) -> Self {
-        let mut gap_m = self.gap_m.clone();
-        MapLevel::Plane.take_off(self.cells_x, &mut gap_m);
-        Self {
-            gap_m: gap_from(gap_m, MapQuantity::Gap),
-            source: None,
-            ..*self
-        }
-    }
-
-    /// Column and row, counted from 1, of a point on the border that touches first, where one does: contact begins there.
-    pub fn touches_at_border(&self) -> Option<(usize, usize)> {
-        let place = |at: usize| (at % self.cells_x + 1, at / self.cells_x + 1);
-        let is_border = |(x, y): &(usize, usize)| {
-            [1, self.cells_x].contains(x) || [1, self.cells_y].contains(y)
-        };
-        let first = self
-            .gap_m
-            .iter()
-            .enumerate()
-            .filter(|(_, gap_m)| **gap_m == 0.0);
-        first.map(|(at, _)| place(at)).find(is_border)
+    /// Distance (m) between points along x and y.
+    pub fn spacing_m(&self) -> (f64, f64) {
+        (self.spacing_x_m, self.spacing_y_m)
     }
 
     /// Gap (m) at every point, row by row.
@@ -323,30 +209,19 @@ fn between(a: f64, b: f64, share: f64) -> f64 {
 
 impl Indenter for HeightMap {
     fn shape(&self) -> &'static str {
-        "height-map"
+        self.shape
     }
 
-    /// The file and how to read it; a map made of values in memory has no file.
     fn parameters(&self) -> Vec<Parameter> {
-        let source = self.source.as_ref();
-        let data = source.iter().flat_map(|source| source.data.parameters());
-        let mut parameters: Vec<Parameter> = data.collect();
-        parameters.push(Parameter::choice(
-            "quantity",
-            &MapQuantity::NAMES,
-            self.quantity,
-        ));
-        if source.is_none_or(|source| !source.gives_places) {
-            let spacing = vec![self.spacing_x_m, self.spacing_y_m];
-            let spacing = Value::Quantities(spacing, Dimension::Length);
-            parameters.push(Parameter::new("spacing", spacing));
-            let unit = source.map_or(HEIGHT_UNITS[0].0, |source| source.height_unit.name);
-            parameters.push(Parameter::text("height_unit", unit));
-        }
-        let level = source.map_or(MapLevel::None, |source| source.level);
-        let level = Parameter::choice("level", &MapLevel::NAMES, level);
-        parameters.extend([level, self.edge.parameter()]);
-        parameters
+        self.parameters.clone()
+    }
+
+    fn not_axisymmetric_because(&self) -> String {
+        let of_what = match self.shape {
+            Self::SHAPE => "",
+            _ => "surface ",
+        };
+        format!("{of_what}is not a body of revolution")
     }
 
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {
@@ -511,99 +386,5 @@ mod tests {
             MapEdge::Unknown,
         );
         assert!(matches!(spacing, Err(IndenterError::Length { .. })));
-    }
-
-    /// Heights on `cells` by `cells` points, in units of their spacing.
-    fn square(cells: usize, height: impl Fn(f64, f64) -> f64) -> HeightMap {
-        let at = |i: usize| i as f64 - 0.5 * (cells - 1) as f64;
-        let values = (0..cells * cells).map(|i| height(at(i % cells), at(i / cells)));
-        let (cells, edge) = ((cells, cells), MapEdge::Unknown);
-        HeightMap::new(
-            cells,
-            (1.0, 1.0),
-            values.collect(),
-            MapQuantity::Height,
-            edge,
-        )
-        .unwrap()
-    }
-
-    #[test]
-    fn the_plane_of_least_squares_is_taken_off_and_the_mean_with_it() {
-        // A plane alone leaves nothing, on even and odd numbers of points.
-        for (cells_x, cells_y) in [(4, 7), (5, 3)] {
-            let plane = |at: usize| 7.0 + 2.0 * (at % cells_x) as f64 - 3.0 * (at / cells_x) as f64;
-            let mut values: Vec<f64> = (0..cells_x * cells_y).map(plane).collect();
-            MapLevel::Plane.take_off(cells_x, &mut values);
-            // Sums of tens of numbers of size 30.
-            assert!(values.iter().all(|z| z.abs() < 1e-13), "{values:?}");
-        }
-        // What is left is at right angles to every plane.
-        let mut values: Vec<f64> = (0..20).map(|i| f64::from(i * i % 13)).collect();
-        MapLevel::Plane.take_off(5, &mut values);
-        let moment = |weight: fn(usize) -> f64| -> f64 {
-            values.iter().enumerate().map(|(i, z)| z * weight(i)).sum()
-        };
-        for moment in [
-            moment(|_| 1.0),
-            moment(|i| (i % 5) as f64),
-            moment(|i| (i / 5) as f64),
-        ] {
-            assert!(moment.abs() < 1e-12, "{moment:e}");
-        }
-        let mut values = vec![1.0, 2.0, 6.0];
-        MapLevel::Mean.take_off(3, &mut values);
-        assert_eq!(values, [-2.0, -1.0, 3.0]);
-        MapLevel::None.take_off(3, &mut values);
-        assert_eq!(values, [-2.0, -1.0, 3.0]);
-    }
-
-    #[test]
-    fn a_tilted_map_touches_at_its_border_and_without_its_plane_where_it_did() {
-        let bump = |x: f64, y: f64| -1e-3 * (x * x + y * y);
-        let straight = square(31, bump);
-        let tilted = square(31, |x, y| bump(x, y) + 0.1 * x - 0.07 * y);
-        assert_eq!(straight.touches_at_border(), None);
-        assert_eq!(tilted.touches_at_border(), Some((31, 1)));
-        let cured = tilted.without_plane();
-        assert_eq!(cured.touches_at_border(), None);
-        let pairs = cured.gaps_m().iter().zip(straight.gaps_m());
-        // Heights are of size 3.
-        assert!(pairs.clone().all(|(a, b)| (a - b).abs() < 1e-13));
-    }
-
-    /// The choice of the median, on maps in their own unit and in micrometres read as metres: see the comment at the limit.
-    #[test]
-    fn the_median_slope_tells_a_wrong_unit_and_no_wall_or_bad_point() {
-        let round = |x: f64, y: f64| x.hypot(y);
-        let noise = |x: f64, y: f64| ((x * 12.9898 + y * 78.233).sin() * 43_758.5).fract();
-        type Height<'a> = &'a dyn Fn(f64, f64) -> f64;
-        let maps: [(&str, usize, Height<'_>); 6] = [
-            ("paraboloid", 64, &|x, y| -2e-3 * (x * x + y * y)),
-            ("paraboloid of few points", 9, &|x, y| {
-                -2e-3 * (x * x + y * y)
-            }),
-            ("cone 30 degrees from flat", 64, &|x, y| {
-                -0.577 * round(x, y)
-            }),
-            ("rough", 64, &|x, y| 0.3 * noise(x, y)),
-            (
-                "rough with 5 % bad points",
-                64,
-                &|x, y| match noise(y, x).abs() > 0.95 {
-                    true => 100.0,
-                    false => 0.3 * noise(x, y),
-                },
-            ),
-            ("tilted", 64, &|x, y| 0.02 * x + 0.01 * noise(x, y)),
-        ];
-        for (name, cells, height) in maps {
-            let own = square(cells, height).median_slope();
-            let wrong = square(cells, |x, y| 1e6 * height(x, y)).median_slope();
-            assert!(own < 0.6 && wrong > 1e4, "{name}: {own:e}, {wrong:e}");
-        }
-        // Walls are walls in any unit.
-        let punch = |x: f64, y: f64| if round(x, y) < 20.0 { 0.0 } else { -1e6 };
-        assert_eq!(square(64, punch).median_slope(), 0.0);
     }
 }

@@ -30,13 +30,11 @@ pub use asperities::{Asperities, Asperity};
 pub use cone::Cone;
 pub use ellipsoid::Ellipsoid;
 pub use flat_punch::FlatPunch;
-pub use height_map::{
-    HEIGHT_UNITS, HeightMap, HeightUnit, MapEdge, MapLevel, MapQuantity, MapSource,
-};
+pub use height_map::{HeightMap, MapEdge, MapQuantity};
 pub use power_law::PowerLaw;
 pub use profile::Profile;
 pub use reach::radius_under_approach_m;
-pub use rough::{Rough, Roughness};
+pub use rough::Roughness;
 pub use shifted::Shifted;
 pub use sphere::Sphere;
 
@@ -72,32 +70,19 @@ impl Parameter {
     }
 
     /// A text.
-    fn text(key: &'static str, text: &str) -> Self {
+    pub fn text(key: &'static str, text: &str) -> Self {
         Self::new(key, Value::Text(text.to_owned()))
     }
 
+    /// The data file of a shape, by its absolute path, so that it can be read again from anywhere, and the SHA-256 of its bytes.
+    pub fn of_file(file: &str, sha256: &str) -> Vec<Self> {
+        vec![Self::text("file", file), Self::text("sha256", sha256)]
+    }
+
     /// A choice, by its name among those that a sweep file may give.
-    fn choice<T: PartialEq>(key: &'static str, names: &[(&'static str, T)], chosen: T) -> Self {
+    pub fn choice<T: PartialEq>(key: &'static str, names: &[(&'static str, T)], chosen: T) -> Self {
         let named = names.iter().find(|(_, choice)| *choice == chosen);
         Self::text(key, named.map_or("", |(name, _)| name))
-    }
-}
-
-/// The file a shape was read from.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct DataFile {
-    /// Path of the file, absolute, so that it can be read again from anywhere.
-    pub file: String,
-    /// SHA-256 of its bytes, in hexadecimal.
-    pub sha256: String,
-}
-
-impl DataFile {
-    fn parameters(&self) -> [Parameter; 2] {
-        [
-            Parameter::text("file", &self.file),
-            Parameter::text("sha256", &self.sha256),
-        ]
     }
 }
 
@@ -123,11 +108,6 @@ pub enum Domain {
 }
 
 impl Domain {
-    /// A square, for a contact that is about round.
-    fn square(half_width_m: f64) -> Self {
-        Self::around((half_width_m, half_width_m))
-    }
-
     /// A rectangle of these half widths, of square cells.
     fn around((half_width_x_m, half_width_y_m): (f64, f64)) -> Self {
         Self::Around {
@@ -276,6 +256,11 @@ pub trait Indenter: std::fmt::Debug + Send + Sync {
         })
     }
 
+    /// Radius (m) of a spherical tip, where the shape is one.
+    fn tip_radius_m(&self) -> Option<f64> {
+        self.made_of()?.tip_radius_m()
+    }
+
     /// Half the side of the square that just holds the elastic contact under this load (N) and contact compliance (1/Pa).
     fn elastic_half_width_m(&self, load_n: f64, compliance_per_pa: f64) -> f64;
 
@@ -283,7 +268,10 @@ pub trait Indenter: std::fmt::Debug + Send + Sync {
     fn domain(&self, load_n: f64, compliance_per_pa: f64) -> Domain {
         match self.made_of() {
             Some(shape) => shape.domain(load_n, compliance_per_pa),
-            None => Domain::square(self.elastic_half_width_m(load_n, compliance_per_pa)),
+            None => {
+                let half_width_m = self.elastic_half_width_m(load_n, compliance_per_pa);
+                Domain::around((half_width_m, half_width_m))
+            }
         }
     }
 

@@ -13,8 +13,7 @@
 //! ```
 
 use super::{
-    Axisymmetric, DataFile, Domain, Indenter, IndenterError, Parameter, radius_under_approach_m,
-    reach,
+    Axisymmetric, Domain, Indenter, IndenterError, Parameter, radius_under_approach_m, reach,
 };
 use crate::numerics::roots::{ALL_DIGITS, bisect};
 
@@ -60,7 +59,7 @@ pub struct Profile {
     not_convex_at_m: Option<f64>,
     /// Radii (m) of an apex (0) and of edges that run around the body.
     singular_m: Vec<f64>,
-    source: Option<DataFile>,
+    parameters: Vec<Parameter>,
 }
 
 impl Profile {
@@ -94,14 +93,13 @@ impl Profile {
             pieces,
             end_m: points.last().map_or(0.0, |p| p.0),
             not_convex_at_m: not_convex.and_then(|i| points.get(i)).map(|p| p.0),
-            source: None,
+            parameters: Vec::new(),
         })
     }
 
-    /// The same profile, which remembers the file it was read from.
-    pub fn with_source(mut self, source: DataFile) -> Self {
-        self.source = Some(source);
-        self
+    /// The same profile under the settings from which it was made: its file.
+    pub fn made_from(self, parameters: Vec<Parameter>) -> Self {
+        Self { parameters, ..self }
     }
 
     /// Radius of the last point (m).
@@ -326,8 +324,7 @@ impl Indenter for Profile {
 
     /// The file, where there is one: a profile made of points in memory has no settings.
     fn parameters(&self) -> Vec<Parameter> {
-        let source = self.source.iter();
-        source.flat_map(DataFile::parameters).collect()
+        self.parameters.clone()
     }
 
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {

@@ -22,9 +22,7 @@ use std::ops::RangeInclusive;
 use num_complex::Complex;
 use rustfft::FftPlannerScalar;
 
-use super::{
-    HeightMap, Indenter, IndenterError, MapEdge, MapQuantity, Parameter, Value, positive_length,
-};
+use super::{HeightMap, IndenterError, MapEdge, MapQuantity, Parameter, Value, positive_length};
 
 /// Cells per side.
 pub(super) const CELLS: RangeInclusive<usize> = 8..=4096;
@@ -51,44 +49,45 @@ pub struct Roughness {
     pub edge: MapEdge,
 }
 
-/// A rigid indenter with a rough surface. The least gap counts as 0.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Rough {
-    roughness: Roughness,
-    map: HeightMap,
-}
-
-impl Rough {
-    /// The surface of these parameters; positive heights point towards the half-space.
+impl Roughness {
+    /// The rigid indenter with this surface; positive heights point towards the half-space, and the least gap counts as 0.
     ///
     /// # Errors
     /// [`IndenterError`] for lengths that are none, a Hurst exponent outside 0 to 1, a number of cells outside 8 to 4096, and
     /// wavelengths that do not obey 2 spacing <= cut-off < roll-off <= side.
-    pub fn new(roughness: Roughness) -> Result<Self, IndenterError> {
-        check(&roughness)?;
-        let n = roughness.cells;
-        let mut heights = heights_m(&roughness);
-        if let Some(radius_m) = roughness.sphere_radius_m {
-            let at = |i: usize| (i as f64 - 0.5 * (n as f64 - 1.0)) * roughness.spacing_m;
-            for (index, height) in heights.iter_mut().enumerate() {
+    pub fn map(&self) -> Result<HeightMap, IndenterError> {
+        check(self)?;
+        let (n, spacing_m) = (self.cells, self.spacing_m);
+        let mut heights_m = heights_m(self);
+        if let Some(radius_m) = self.sphere_radius_m {
+            let at = |i: usize| (i as f64 - 0.5 * (n as f64 - 1.0)) * spacing_m;
+            for (index, height) in heights_m.iter_mut().enumerate() {
                 let (x_m, y_m) = (at(index % n), at(index / n));
                 *height -= (x_m * x_m + y_m * y_m) / (2.0 * radius_m);
             }
         }
-        let spacing = (roughness.spacing_m, roughness.spacing_m);
-        let map = HeightMap::new(
-            (n, n),
-            spacing,
-            heights,
-            MapQuantity::Height,
-            roughness.edge,
-        )?;
-        Ok(Self { roughness, map })
+        let (spacing_m, heights) = ((spacing_m, spacing_m), MapQuantity::Height);
+        let map = HeightMap::new((n, n), spacing_m, heights_m, heights, self.edge)?;
+        Ok(map.made_from("rough", self.parameters()))
     }
 
-    /// The surface as a map.
-    pub fn map(&self) -> &HeightMap {
-        &self.map
+    fn parameters(&self) -> Vec<Parameter> {
+        let mut parameters = vec![
+            Parameter::new("cells", Value::Integer(self.cells as u64)),
+            Parameter::length("spacing", self.spacing_m),
+            Parameter::new("hurst_exponent", Value::Number(self.hurst_exponent)),
+            Parameter::length("rms_height", self.rms_height_m),
+            Parameter::length("cut_off_wavelength", self.cut_off_wavelength_m),
+            Parameter::new("seed", Value::Integer(self.seed)),
+            self.edge.parameter(),
+        ];
+        for (key, length_m) in [
+            ("roll_off_wavelength", self.roll_off_wavelength_m),
+            ("sphere_radius", self.sphere_radius_m),
+        ] {
+            parameters.extend(length_m.map(|length_m| Parameter::length(key, length_m)));
+        }
+        parameters
     }
 }
 
@@ -216,50 +215,9 @@ fn gaussian(seed: u64, kx: i64, ky: i64) -> Complex<f64> {
     Complex::from_polar(radius, std::f64::consts::TAU * uniform())
 }
 
-impl Indenter for Rough {
-    fn shape(&self) -> &'static str {
-        "rough"
-    }
-
-    fn parameters(&self) -> Vec<Parameter> {
-        let roughness = &self.roughness;
-        let mut parameters = vec![
-            Parameter::new("cells", Value::Integer(roughness.cells as u64)),
-            Parameter::length("spacing", roughness.spacing_m),
-            Parameter::new("hurst_exponent", Value::Number(roughness.hurst_exponent)),
-            Parameter::length("rms_height", roughness.rms_height_m),
-            Parameter::length("cut_off_wavelength", roughness.cut_off_wavelength_m),
-            Parameter::new("seed", Value::Integer(roughness.seed)),
-            roughness.edge.parameter(),
-        ];
-        for (key, length_m) in [
-            ("roll_off_wavelength", roughness.roll_off_wavelength_m),
-            ("sphere_radius", roughness.sphere_radius_m),
-        ] {
-            parameters.extend(length_m.map(|length_m| Parameter::length(key, length_m)));
-        }
-        parameters
-    }
-
-    fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {
-        self.map.gap_m(x_m, y_m)
-    }
-
-    fn made_of(&self) -> Option<&dyn Indenter> {
-        Some(&self.map)
-    }
-
-    fn not_axisymmetric_because(&self) -> String {
-        "surface is not a body of revolution".to_owned()
-    }
-
-    fn elastic_half_width_m(&self, load_n: f64, compliance_per_pa: f64) -> f64 {
-        self.map.elastic_half_width_m(load_n, compliance_per_pa)
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::Indenter;
     use super::*;
 
     fn roughness(cells: usize) -> Roughness {
@@ -285,8 +243,8 @@ mod tests {
 
     #[test]
     fn the_same_seed_gives_the_same_surface_and_another_seed_another() {
-        let one = Rough::new(roughness(64)).unwrap();
-        assert_eq!(one, Rough::new(roughness(64)).unwrap());
+        let one = roughness(64).map().unwrap();
+        assert_eq!(one, roughness(64).map().unwrap());
         let other = Roughness {
             seed: 43,
             ..roughness(64)
@@ -367,10 +325,7 @@ mod tests {
             sphere_radius_m: Some(1e-4),
             ..roughness(40)
         };
-        let (flat, sphere) = (
-            Rough::new(roughness(40)).unwrap(),
-            Rough::new(on_sphere).unwrap(),
-        );
+        let (flat, sphere) = (roughness(40).map().unwrap(), on_sphere.map().unwrap());
         let difference =
             |x: f64, y: f64| sphere.gap_m(x, y) - flat.gap_m(x, y) - (x * x + y * y) / (2.0 * 1e-4);
         let h = 1e-5 / 40.0;
@@ -378,7 +333,7 @@ mod tests {
         for (x, y) in [(7.5, 2.5), (-10.5, 3.5), (12.5, -15.5)] {
             assert!((difference(x * h, y * h) - constant).abs() < 1e-20);
         }
-        let lowest = sphere.map().gaps_m().iter().copied().fold(1.0, f64::min);
+        let lowest = sphere.gaps_m().iter().copied().fold(1.0, f64::min);
         assert_eq!(lowest, 0.0);
     }
 
@@ -387,7 +342,7 @@ mod tests {
         let refused = |change: fn(&mut Roughness)| {
             let mut settings = roughness(64);
             change(&mut settings);
-            Rough::new(settings).unwrap_err().to_string()
+            settings.map().unwrap_err().to_string()
         };
         assert!(refused(|r| r.hurst_exponent = 1.1).contains("Hurst"));
         assert!(refused(|r| r.cells = 7).contains("7 cells"));
@@ -402,10 +357,11 @@ mod tests {
             assert!(refused(change).contains("cut-off < roll-off"));
         }
         assert!(
-            Rough::new(Roughness {
+            Roughness {
                 cut_off_wavelength_m: 2e-5 / 64.0,
                 ..roughness(64)
-            })
+            }
+            .map()
             .is_ok()
         );
     }

@@ -31,6 +31,10 @@ impl Indenter for Sphere {
         vec![Parameter::length("radius", self.radius_m)]
     }
 
+    fn tip_radius_m(&self) -> Option<f64> {
+        Some(self.radius_m)
+    }
+
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {
         (x_m * x_m + y_m * y_m) / (2.0 * self.radius_m)
     }

@@ -3,11 +3,12 @@
 use std::ops::RangeInclusive;
 
 use super::{material, rows};
-use crate::indenter::{HEIGHT_UNITS, HeightUnit, MapEdge, MapLevel, MapQuantity};
+use crate::indenter::{MapEdge, MapQuantity};
 use crate::input::document::kind::{
     Array, Choice, Integer, Scalar, Table, Tables, Text, number, pair, quantity,
 };
 use crate::input::document::row::{Optional, Or, Others, Required, Row, Rows};
+use crate::input::map_values::{HEIGHT_UNITS, MapLevel};
 use crate::quantity::Dimension::{Angle, Length};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -131,7 +132,7 @@ rows! { _:
     MAP_QUANTITY: Row<Choice<MapQuantity>, Or<MapQuantity>> =
         "quantity", Choice(&MapQuantity::NAMES), Or(MapQuantity::Height);
     /// Unit of the values of a matrix.
-    HEIGHT_UNIT: Row<Choice<HeightUnit>, Or<HeightUnit>> =
+    HEIGHT_UNIT: Row<Choice<f64>, Or<f64>> =
         "height_unit", Choice(&HEIGHT_UNITS), Or(HEIGHT_UNITS[0].1);
     /// What is subtracted from the values first: nothing, their mean, or the best-fit plane.
     LEVEL: Row<Choice<MapLevel>, Or<MapLevel>> =

@@ -14,7 +14,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::indenter::{Indenter, Value};
+use crate::indenter::Indenter;
 use crate::quantity::Dimension;
 use crate::sweep::plan::resolved::quoted;
 
@@ -34,12 +34,7 @@ impl AdhesionPlan {
 
     /// 2 pi w R (N) of a sphere; `None` of another shape.
     pub fn pull_off_n(&self, indenter: &dyn Indenter) -> Option<f64> {
-        let parameters = indenter.parameters();
-        let radius = parameters.iter().find(|p| p.key == "radius")?;
-        match (indenter.shape(), &radius.value) {
-            ("sphere", Value::Quantity(radius_m, _)) => Some(TAU * self.work_j_per_m2 * radius_m),
-            _ => None,
-        }
+        Some(TAU * self.work_j_per_m2 * indenter.tip_radius_m()?)
     }
 
     /// Tabor's parameter of a contact of this pull-off load (N) and contact modulus (Pa).
