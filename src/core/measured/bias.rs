@@ -38,8 +38,9 @@ const SPRINGS: usize = 128;
 const ROUNDS: usize = 25;
 /// Relative change at which it ends.
 const SETTLED: f64 = 1e-5;
-/// Smallest product of frequency and time of the branch that carries the loss.
+/// Smallest product of frequency and time of the branch that carries the loss, and the product of the slow one.
 const LEAST: f64 = 0.02;
+const SLOW: f64 = 300.0;
 
 /// A solid that is sought.
 #[derive(Debug, Clone, Copy)]
@@ -47,52 +48,25 @@ struct Solid {
     storage_pa: f64,
     loss_pa: f64,
     equilibrium_pa: f64,
-    split: Split,
-}
-
-/// How the modulus is shared between the branch that carries the loss and a slow one.
-#[derive(Debug, Clone, Copy)]
-struct Split {
     /// Largest product of frequency and time of the branch that carries the loss: the loss falls with frequency where it is large, and
     /// rises where it is small.
     fast: f64,
-    /// Product of frequency and time of the slow one.
-    slow: f64,
 }
 
-/// The split by which the bias is taken out.
-const SPLIT: Split = Split {
-    fast: 1.0,
-    slow: 300.0,
-};
+/// The largest product by which the bias is taken out.
+const FAST: f64 = 1.0;
 /// What else the spectrum may be, at its two ends: a single branch, as far as its loss allows; and a loss that rises with frequency. For
-/// random solids of one, two and five branches the bias is no further from the one by [`SPLIT`] than that by one of these.
-const OTHER_SPLITS: [Split; 2] = [
-    Split {
-        fast: f64::INFINITY,
-        slow: 300.0,
-    },
-    Split {
-        fast: 0.05,
-        slow: 300.0,
-    },
-];
+/// random solids of one, two and five branches the bias is no further from the one by [`FAST`] than that by one of these.
+const OTHERS: [f64; 2] = [f64::INFINITY, 0.05];
 
 /// What the formula reads from the exact cycle of a solid.
 struct Reading {
-    storage_pa: f64,
-    loss_pa: f64,
+    /// Storage and loss modulus (Pa).
+    read: [f64; 2],
     /// What the drive does not prescribe.
     mean: f64,
-    /// The solid's own modulus (Pa).
-    own: Complex<f64>,
-}
-
-impl Reading {
     /// What the formula gives over what is there: of the storage and of the loss modulus.
-    fn bias(&self) -> (f64, f64) {
-        (self.storage_pa / self.own.re, self.loss_pa / self.own.im)
-    }
+    bias: [f64; 2],
 }
 
 /// Why the bias is not known, as a part of a sentence.
@@ -112,39 +86,35 @@ pub(super) fn unbiased(
     if loss.value <= 0.0 || storage.value <= 0.0 {
         return Err("no passive solid has these moduli".into());
     }
-    let read = Complex::new(storage.value, loss.value);
+    let measured = [storage.value, loss.value];
     let first = Solid {
         storage_pa: storage.value,
         loss_pa: loss.value,
         equilibrium_pa: storage.value,
-        split: SPLIT,
+        fast: FAST,
     };
-    let solid = model.solid(read, first)?;
-    let bias = model.read(&solid, STEPS, SPRINGS)?.bias();
+    let solid = model.solid(measured, first)?;
+    let bias = model.read(&solid, STEPS, SPRINGS)?.bias;
     // What coarser steps and springs change is more than what these leave.
-    let coarser = model.read(&solid, STEPS / 2, SPRINGS / 2)?.bias();
-    let mut uncertain = apart(coarser, bias);
+    let coarser = model.read(&solid, STEPS / 2, SPRINGS / 2)?.bias;
     // Another spectrum with the same modulus and the same mean has another bias. One that gives no such loop is none to be considered.
-    for split in OTHER_SPLITS {
-        let other = model.solid(read, Solid { split, ..solid });
-        let other = other.and_then(|solid| model.read(&solid, STEPS, SPRINGS));
-        if let Ok(other) = other {
-            let change = apart(other.bias(), bias);
-            uncertain.0 = uncertain.0.max(change.0);
-            uncertain.1 = uncertain.1.max(change.1);
-        }
-    }
+    let others = OTHERS.into_iter().filter_map(|fast| {
+        let other = model.solid(measured, Solid { fast, ..solid }).ok()?;
+        Some(model.read(&other, STEPS, SPRINGS).ok()?.bias)
+    });
+    let biases: Vec<[f64; 2]> = others.chain([coarser]).collect();
+    let without = |which: usize, estimate: Estimate| {
+        let changes = biases
+            .iter()
+            .map(|other| (other[which] / bias[which] - 1.0).abs());
+        over(estimate, bias[which], changes.fold(0.0, f64::max))
+    };
     Ok(Unbiased {
-        storage_modulus_pa: over(storage, bias.0, uncertain.0),
-        loss_modulus_pa: over(loss, bias.1, uncertain.1),
-        storage_bias: bias.0,
-        loss_bias: bias.1,
+        storage_modulus_pa: without(0, storage),
+        loss_modulus_pa: without(1, loss),
+        storage_bias: bias[0],
+        loss_bias: bias[1],
     })
-}
-
-/// By which parts two biases differ.
-fn apart(one: (f64, f64), other: (f64, f64)) -> (f64, f64) {
-    ((one.0 / other.0 - 1.0).abs(), (one.1 / other.1 - 1.0).abs())
 }
 
 /// An estimate without its bias, which is uncertain by a part of it: that widens the interval as a whole.
@@ -213,19 +183,24 @@ impl<'a> Model<'a> {
     }
 
     /// The solid, split in its way, of whose exact cycle the formula reads these moduli (Pa) and whose mean is the measured one.
-    fn solid(&self, modulus: Complex<f64>, first: Solid) -> Result<Solid, Failure> {
+    fn solid(&self, measured: [f64; 2], first: Solid) -> Result<Solid, Failure> {
         let mut solid = first;
         for _ in 0..ROUNDS {
             let read = self.read(&solid, STEPS, SPRINGS)?;
-            let up = modulus.re / read.storage_pa;
-            let down = modulus.im / read.loss_pa;
             let before = solid;
-            solid.storage_pa *= up;
-            solid.loss_pa *= down;
+            solid.storage_pa *= measured[0] / read.read[0];
+            solid.loss_pa *= measured[1] / read.read[1];
             let equilibrium_pa = before.equilibrium_pa * self.softness(read.mean);
             solid.equilibrium_pa = equilibrium_pa.min(solid.storage_pa);
-            let of_mean = (solid.equilibrium_pa / before.equilibrium_pa).ln().abs();
-            let change = up.ln().abs().max(down.ln().abs()).max(of_mean);
+            let changes = [
+                solid.storage_pa / before.storage_pa,
+                solid.loss_pa / before.loss_pa,
+                solid.equilibrium_pa / before.equilibrium_pa,
+            ];
+            let change = changes
+                .into_iter()
+                .map(|c| c.ln().abs())
+                .fold(0.0, f64::max);
             if change < SETTLED {
                 return Ok(solid);
             }
@@ -259,13 +234,12 @@ impl<'a> Model<'a> {
             .map(|read| material.of_loop(read, self.angular));
         let (storage_pa, loss_pa) = moduli.ok_or("the exact cycle has no contact radius")?;
         Ok(Reading {
-            storage_pa,
-            loss_pa,
+            read: [storage_pa, loss_pa],
+            bias: [storage_pa / own.re, loss_pa / own.im],
             mean: match self.drive.control() {
                 Control::Load => analysis.approach_mean_m,
                 Control::Approach => analysis.load_mean_n,
             },
-            own,
         })
     }
 
@@ -286,9 +260,9 @@ impl Solid {
         // Of q = omega tau: the branch adds E'' q to the storage modulus, no more than what the equilibrium leaves, and no more than
         // nine tenths where that is all.
         let left = (self.storage_pa - self.equilibrium_pa) / self.loss_pa;
-        let most = if self.split.fast <= 1.0 { 0.5 } else { 0.9 };
+        let most = if self.fast <= 1.0 { 0.5 } else { 0.9 };
         let q = (most * self.storage_pa / self.loss_pa)
-            .min(self.split.fast)
+            .min(self.fast)
             .min(left.max(LEAST));
         let fast_pa = self.loss_pa * (1.0 + q * q) / q;
         let rest_pa = self.storage_pa - self.loss_pa * q;
@@ -300,7 +274,7 @@ impl Solid {
         let mut branches = vec![branch(fast_pa, q)];
         let slow_pa = rest_pa - equilibrium_pa;
         if slow_pa > 1e-6 * rest_pa {
-            branches.push(branch(slow_pa, self.split.slow));
+            branches.push(branch(slow_pa, SLOW));
         }
         Relaxation::new(equilibrium_pa, branches)
     }

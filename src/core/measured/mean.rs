@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use nalgebra::{DMatrix, DVector};
 use num_complex::Complex;
 
 use super::bias;
@@ -47,7 +48,7 @@ impl Mean<'_> {
     /// Fills in what a record has of it: means and errors, the mean cycle, points to be drawn, findings.
     pub(super) fn fill(&self, measured: &mut MeasuredLoop) {
         let cycles = || self.used.iter().map(|place| &measured.cycles[*place]);
-        let mean = mean_cycle(&cycles().map(|cycle| &cycle.raw).collect::<Vec<_>>());
+        let mean = mean_cycle(cycles().map(|cycle| &cycle.raw));
         let corrected = (self.options.corrections).applied(self.model.angular, &mean);
         let radii = cycles().filter_map(|cycle| cycle.contact_radius_m);
         let column_m = super::statistics::mean(&radii.collect::<Vec<f64>>());
@@ -183,7 +184,7 @@ impl Mean<'_> {
         let fits = self.model.fits(&signal)?;
         let intervals = self.signal.time_s.windows(2).map(|w| w[1] - w[0]);
         let interval_s = upper_median(intervals)?;
-        let mut squares = [0.0; Quantity::ALL.len()];
+        let mut squares = DVector::zeros(Quantity::ALL.len());
         let mut freedom = f64::INFINITY;
         let mut coarse = Vec::new();
         for (which, fit) in fits.iter().enumerate() {
@@ -205,13 +206,7 @@ impl Mean<'_> {
             }
             let covariance = self.covariance(fit, &noise, steps);
             let slopes = self.slopes(which, mean, column_m, (center, &covariance));
-            let p = slopes.len();
-            for (place, square) in squares.iter_mut().enumerate() {
-                let pairs = (0..p).flat_map(|i| (0..p).map(move |j| (i, j)));
-                *square += pairs
-                    .map(|(i, j)| slopes[i][place] * covariance[(i, j)] * slopes[j][place])
-                    .sum::<f64>();
-            }
+            squares += (&slopes * covariance * slopes.transpose()).diagonal();
         }
         Some(Errors {
             of: std::array::from_fn(|place| {
@@ -271,25 +266,26 @@ impl Mean<'_> {
     }
 
     /// Covariance of mean and harmonics of one signal, with a further variance of every sample.
-    fn covariance(&self, fit: &Fit, noise: &Noise, steps: f64) -> nalgebra::DMatrix<f64> {
+    fn covariance(&self, fit: &Fit, noise: &Noise, steps: f64) -> DMatrix<f64> {
         let inverse = fit.normal.inverse();
-        let harmonic = |column: usize| column.div_ceil(2);
         let scale = |column: usize| {
-            (noise.variance * noise.power(self.model.angular, harmonic(column)) + steps).sqrt()
+            let power = noise.power(self.model.angular, column.div_ceil(2));
+            (noise.variance * power + steps).sqrt()
         };
         let p = self.model.common();
-        nalgebra::DMatrix::from_fn(p, p, |i, j| inverse[(i, j)] * scale(i) * scale(j))
+        DMatrix::from_fn(p, p, |i, j| inverse[(i, j)] * scale(i) * scale(j))
     }
 
-    /// Derivatives of every quantity by mean and harmonics of one signal, by central differences over a part of the standard errors:
+    /// Derivatives of every quantity (rows) by mean and harmonics of one signal (columns), by central differences over a part of the
+    /// standard errors:
     /// the size of a harmonic that is smaller than its error has a slope only close by.
     fn slopes(
         &self,
         which: usize,
         mean: &Harmonics,
         column_m: Option<f64>,
-        (center, covariance): (&Values, &nalgebra::DMatrix<f64>),
-    ) -> Vec<[f64; Quantity::ALL.len()]> {
+        (center, covariance): (&Values, &DMatrix<f64>),
+    ) -> DMatrix<f64> {
         let moved = |column: usize, by: f64| {
             let mut moved = mean.clone();
             let (level, harmonics) = match which {
@@ -307,26 +303,24 @@ impl Mean<'_> {
             let corrected = (self.options.corrections).applied(self.model.angular, &moved);
             (self.options).values(&corrected, column_m, self.model.angular)
         };
-        let slope = |column: usize| {
+        let mut slopes = DMatrix::zeros(Quantity::ALL.len(), self.model.common());
+        for (column, mut slopes) in slopes.column_iter_mut().enumerate() {
             let step = 0.05 * covariance[(column, column)].sqrt();
             if !(step.is_finite() && step > 0.0) {
-                return [0.0; Quantity::ALL.len()];
+                continue;
             }
             let (up, down) = (moved(column, step), moved(column, -step));
-            std::array::from_fn(|place| match (up[place], down[place], center[place]) {
-                (Some(up), Some(down), Some(_)) => {
-                    let is_angle = Quantity::ALL[place].0.is_angle();
-                    let change = if is_angle {
-                        wrapped(up - down)
-                    } else {
-                        up - down
+            for (place, (quantity, ..)) in Quantity::ALL.iter().enumerate() {
+                if let (Some(up), Some(down), Some(_)) = (up[place], down[place], center[place]) {
+                    let change = match quantity.is_angle() {
+                        true => wrapped(up - down),
+                        false => up - down,
                     };
-                    change / (2.0 * step)
+                    slopes[place] = change / (2.0 * step);
                 }
-                _ => 0.0,
-            })
-        };
-        (0..self.model.common()).map(slope).collect()
+            }
+        }
+        slopes
     }
 
     /// Averages over parts of the cycle: the corrected mean cycle, and what the samples have beside the harmonics.
@@ -372,17 +366,14 @@ fn step_of(which: usize, sampling: &Sampling) -> (&'static str, Option<f64>) {
 }
 
 /// The mean of cycles as the instrument gives them: their harmonics share one origin of time.
-fn mean_cycle(cycles: &[&Harmonics]) -> Harmonics {
-    let count = cycles.len().max(1) as f64;
-    let level = |value: fn(&Harmonics) -> f64| {
-        let values = cycles.iter().map(|cycle| value(cycle));
-        values.sum::<f64>() / count
-    };
+fn mean_cycle<'a>(cycles: impl Iterator<Item = &'a Harmonics> + Clone) -> Harmonics {
+    let count = cycles.clone().count().max(1) as f64;
+    let level = |value: fn(&Harmonics) -> f64| cycles.clone().map(value).sum::<f64>() / count;
     let harmonics = |of: fn(&Harmonics) -> &[Complex<f64>]| {
-        let fitted = cycles.iter().map(|cycle| of(cycle).len()).min();
+        let fitted = cycles.clone().map(|cycle| of(cycle).len()).min();
         let sum = |n: usize| {
             cycles
-                .iter()
+                .clone()
                 .map(|cycle| of(cycle)[n])
                 .sum::<Complex<f64>>()
         };
