@@ -72,7 +72,7 @@ impl Body {
         if let Some(dynamic) = &self.dynamic {
             return Some(self.dynamic_fit(py, dynamic));
         }
-        let report = self.material.series()?.fit()?;
+        let report = self.material.series()?.origin.fit.as_ref()?;
         let (warnings, notes) = report.remarks.iter().partition(|r| r.is_warning());
         let sentences = |remarks: Vec<&FitRemark>| remarks.iter().map(|r| r.to_string()).collect();
         let summary = serde_json::json!({
@@ -115,7 +115,7 @@ impl Body {
 
     #[getter]
     fn temperature_k(&self) -> Option<f64> {
-        self.material.series()?.temperature_k()
+        self.material.series()?.origin.temperature_k
     }
 
     #[pyo3(signature = (angular_frequency, modulus) -> "NDArray[complex128]")]

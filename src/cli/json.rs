@@ -101,8 +101,8 @@ pub(super) fn material(material: &Material) -> Result<Value, Failure> {
         "creep": material.creep(),
         "moduli": MaterialReport::new(material).moduli(10),
         "peaks": peaks.map_err(Failure::input)?,
-        "fit": material.fit().map(fit_report),
-        "approximation": material.approximation(),
+        "fit": material.origin.fit.as_ref().map(fit_report),
+        "approximation": material.origin.approximation.as_ref(),
         "material_toml": resolved::material_text(material),
     }))
 }

@@ -16,7 +16,8 @@ use crate::sweep::store::write_atomically;
 pub(super) fn run(flags: &ExportFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let (material, _, reads) = material::load(&flags.material)?;
     let program = flags.program;
-    let export = export::export(&material, material.shift(), program).map_err(Failure::input)?;
+    let export = export::export(&material, material.origin.shift.as_ref(), program)
+        .map_err(Failure::input)?;
     if let Some(file) = &flags.out {
         write_to(file, &export.text, flags.force, &reads)?;
     }

@@ -108,7 +108,12 @@ pub(super) fn unless_written(flags: &FitFlags, block: &str) -> String {
 
 /// The material block of a sweep file, ready to paste, every number exact.
 fn block(data: &Path, material: &Material) -> String {
-    let fit = material.fit().map(report::fit::text).unwrap_or_default();
+    let fit = material
+        .origin
+        .fit
+        .as_ref()
+        .map(report::fit::text)
+        .unwrap_or_default();
     format!(
         "# From {}\n{}{}",
         data.display().to_string().escape_debug(),

@@ -148,9 +148,9 @@ fn refused(flags: &FitFlags, error: impl std::fmt::Display) -> Failure {
 fn block(flags: &FitFlags, report: &DynamicReport<'_>) -> Result<String, Failure> {
     // Without a Poisson ratio there is none in the text either: the series does not depend on it.
     let nu = flags.poisson_ratio.unwrap_or(0.0);
-    let material = report.made.material(None, nu).map_err(Failure::input)?;
+    let mut material = report.made.material(None, nu).map_err(Failure::input)?;
     let replicas = report.made.replica_materials(None, nu);
-    let material = material.with_replicas(replicas.map_err(Failure::input)?);
+    material.origin.replicas = replicas.map_err(Failure::input)?;
     let block = match flags.poisson_ratio {
         Some(_) => resolved::material_text(&material),
         None => resolved::material_text_without_poisson_ratio(&material),
@@ -168,7 +168,7 @@ fn shifting_block(flags: &FitFlags, report: &DynamicReport<'_>) -> Result<Option
         .made
         .whole_material(None, nu)
         .map_err(Failure::input)?;
-    let has_law = material.shift().is_some();
+    let has_law = material.origin.shift.is_some();
     Ok(has_law.then(|| resolved::material_text(&material)))
 }
 

@@ -217,8 +217,8 @@ impl<'a> Job<'a> {
         let mut text = format!("{}\n\n", plan.title);
         for (_, condition) in plan.each_of(Block::Material) {
             let material = &condition.contact.material;
-            let fit = material.fit().map(report::fit::text);
-            let known = material.approximation();
+            let fit = material.origin.fit.as_ref().map(report::fit::text);
+            let known = material.origin.approximation.as_ref();
             let approximation = known.map(|_| report::fit::approximation(material));
             for part in fit.into_iter().chain(approximation) {
                 text.push_str(&format!("{part}\n"));

@@ -96,7 +96,9 @@ pub(super) fn material_of(mut table: TableReader<'_>) -> Option<Option<Located<M
         let read = material_block::read_over(block, DirectSum::Refused, None);
         let material = material_block::series_of(read?.0)?;
         let checked = problems.accept(&material, material.value.contact_compliance());
-        if !(material.value.replicas().is_empty() && material.value.alternatives().is_empty()) {
+        if !(material.value.origin.replicas.is_empty()
+            && material.value.origin.alternatives.is_empty())
+        {
             problems
                 .at(
                     &material,

@@ -298,7 +298,10 @@ fn from_block(
             let material =
                 |series: Result<Creep, _>| Material::from_creep(series?, kind, nu.clone());
             let others = others.into_iter().map(material).collect::<Result<_, _>>();
-            material(own).and_then(|own| Ok(own.with_alternatives(others?)))
+            material(own).and_then(|mut own| {
+                own.origin.alternatives = others?;
+                Ok(own)
+            })
         }
         Form::Measured => {
             let table = table_of(block, &MEASURED_TABLE, |table| {
@@ -363,7 +366,11 @@ fn of_relaxation(
     let others = others.into_iter().map(material).collect::<Result<_, _>>();
     let replicas = replicas.into_iter().map(|replica| material(Ok(replica)));
     let replicas = replicas.collect::<Result<_, _>>();
-    Some(material(own).and_then(|own| Ok(own.with_alternatives(others?).with_replicas(replicas?))))
+    Some(material(own).and_then(|mut own| {
+        own.origin.alternatives = others?;
+        own.origin.replicas = replicas?;
+        Ok(own)
+    }))
 }
 
 /// The series beside another that fit the same data.

@@ -10,7 +10,7 @@ use super::keys::material::{
 };
 use super::material_block::{branches, measured_window};
 use crate::material::dynamic::shift_law::{Arrhenius, Wlf};
-use crate::material::{Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch};
+use crate::material::{Material, MaterialError, ModulusKind, Origin, Relaxation, RelaxationBranch};
 use crate::quantity::celsius;
 
 /// A material at a temperature (K), or at the one that counts where none is asked for, with this Poisson ratio; else why there is none.
@@ -130,10 +130,10 @@ pub(super) fn isotherms(block: &mut TableReader<'_>) -> Option<AtTemperature> {
 /// What a material knows of temperatures that says itself at which its series holds, and how it shifts; `None` for one that does not.
 pub(super) fn shifting(material: &Material) -> Option<AtTemperature> {
     let isotherm = Isotherm {
-        temperature_k: material.temperature_k()?,
-        law: Some(*material.shift()?),
-        measured_window_s: material.measured_window_s(),
-        isotherms_k: material.isotherms_k(),
+        temperature_k: material.origin.temperature_k?,
+        law: Some(*material.origin.shift.as_ref()?),
+        measured_window_s: material.origin.measured_window_s,
+        isotherms_k: material.origin.isotherms_k,
         kind: material.kind(),
         relaxation: material.relaxation()?.clone(),
         replicas: Vec::new(),
@@ -217,19 +217,18 @@ impl Isotherm {
             shifted.and_then(|series| Material::from_relaxation(series, self.kind, poisson_ratio))
         };
         let replicas: Result<_, _> = self.replicas.iter().map(shifted).collect();
-        let own = shifted(&self.relaxation).and_then(|own| Ok(own.with_replicas(replicas?)));
-        let mut material = own.map_err(|error| error.to_string())?;
-        material = material.at_temperature(temperature_k);
-        if let Some(isotherms_k) = self.isotherms_k {
-            material = material.measured_at_temperatures(isotherms_k);
-        }
-        if let Some((_, law)) = law {
-            material = material.shifting(law);
-        }
-        Ok(match self.measured_window_s {
-            Some((first_s, last_s)) => material.measured((a_t * first_s, a_t * last_s)),
-            None => material,
-        })
+        let made = shifted(&self.relaxation).and_then(|own| Ok((own, replicas?)));
+        let (mut material, replicas) = made.map_err(|error| error.to_string())?;
+        let window_s = self.measured_window_s;
+        material.origin = Origin {
+            measured_window_s: window_s.map(|(first_s, last_s)| (a_t * first_s, a_t * last_s)),
+            temperature_k: Some(temperature_k),
+            shift: law.map(|(_, law)| law),
+            isotherms_k: self.isotherms_k,
+            replicas,
+            ..Origin::default()
+        };
+        Ok(material)
     }
 }
 

@@ -243,7 +243,7 @@ pub fn error_bars(plan: &SweepPlan, outcome: &Outcome) -> Option<String> {
             None => " and from the distance to the stabilised cycle",
         };
         let mut materials = plan.each_of(Block::Material).into_iter();
-        let is_open = materials.any(|(_, condition)| !condition.contact.material.alternatives().is_empty());
+        let is_open = materials.any(|(_, condition)| !condition.contact.material.origin.alternatives.is_empty());
         let open = match is_open {
             true => ", plus the largest difference that other materials make which this one may be as well",
             false => "",

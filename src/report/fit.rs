@@ -15,7 +15,7 @@ pub fn text(report: &FitReport) -> String {
 
 /// How well a series stands for the model that was given; empty where none was. Ends with a line end.
 pub fn approximation(material: &Material) -> String {
-    let known = material.approximation();
+    let known = material.origin.approximation.as_ref();
     known.map_or_else(String::new, |known| wrapped_line(&format!("{known}.")))
 }
 

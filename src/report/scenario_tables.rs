@@ -188,7 +188,7 @@ fn summary(
             .try_fold(0.0, |largest: f64, peak| Some(largest.max(peak?))),
         engine: plan.solver.engine.name(),
         hereditary_integral: match &plan.contact.material {
-            BodyMaterial::Series(material) if material.fit().is_some() => "fitted series",
+            BodyMaterial::Series(material) if material.origin.fit.is_some() => "fitted series",
             BodyMaterial::Series(_) => "series",
             BodyMaterial::Samples(_) => "direct sum",
         },

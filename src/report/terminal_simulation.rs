@@ -18,10 +18,10 @@ use crate::simulation::{SimulationEnd, SimulationOutcome};
 pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
     let mut text = format!("{}\n\n", plan.title);
     let material = match &plan.contact.material {
-        BodyMaterial::Series(material) if material.approximation().is_some() => {
+        BodyMaterial::Series(material) if material.origin.approximation.is_some() => {
             Some(fit::approximation(material))
         }
-        BodyMaterial::Series(material) => material.fit().map(fit::text),
+        BodyMaterial::Series(material) => material.origin.fit.as_ref().map(fit::text),
         BodyMaterial::Samples(sampled) => Some(samples::text(sampled, plan.drive.duration_s())),
     };
     if let Some(material) = material {

@@ -99,7 +99,7 @@ pub fn varied_line(plan: &SweepPlan) -> Option<String> {
 /// The number of replicas that the material has, of several materials the most.
 pub fn replicas(plan: &SweepPlan) -> usize {
     let materials = plan.each_of(Block::Material).into_iter();
-    let counts = materials.map(|(_, condition)| condition.contact.material.replicas().len());
+    let counts = materials.map(|(_, condition)| condition.contact.material.origin.replicas.len());
     counts.max().unwrap_or(0)
 }
 

@@ -353,18 +353,18 @@ fn the_window_and_the_alternatives_of_a_fit_survive_the_resolved_file() {
     let document = Document::read(&folder.path().join("sweep.toml")).unwrap();
     let plan = sweep_file::plan(&document).unwrap();
     let material = &plan.base.contact.material;
-    let (first_s, last_s) = material.measured_window_s().unwrap();
+    let (first_s, last_s) = material.origin.measured_window_s.unwrap();
     assert!((first_s - 0.1).abs() < 1e-12 && (last_s - 100.0).abs() < 1e-9);
-    assert!(material.alternatives().len() >= 2);
+    assert!(material.origin.alternatives.len() >= 2);
     let resolved = resolved_text(&plan);
     assert!(resolved.contains("measured = [") && resolved.contains("[[material.alternative]]"));
     let again = sweep_file::plan(&Document::parse("resolved.toml", &resolved).unwrap()).unwrap();
     assert_eq!(
-        again.base.contact.material.alternatives(),
-        material.alternatives()
+        again.base.contact.material.origin.alternatives,
+        material.origin.alternatives
     );
     assert_eq!(
-        again.base.contact.material.measured_window_s(),
+        again.base.contact.material.origin.measured_window_s,
         Some((first_s, last_s))
     );
     assert_eq!(
@@ -625,7 +625,9 @@ fn rubber(noise: f64, seed: u64) -> Material {
 }
 
 fn rubber_with_replicas(noise: f64, replicas: u64) -> Material {
-    rubber(0.0, 0).with_replicas((1..=replicas).map(|seed| rubber(noise, seed)).collect())
+    let mut material = rubber(0.0, 0);
+    material.origin.replicas = (1..=replicas).map(|seed| rubber(noise, seed)).collect();
+    material
 }
 
 #[test]
@@ -646,7 +648,7 @@ fn the_uncertainty_of_a_flat_punch_is_that_of_the_loss_compliance() {
         let omega = record.angular_frequency_rad_per_s;
         let own_j = loss_j(&material, omega);
         assert!((record.energy_loss_j().unwrap() / own_j - 1.0).abs() < 1e-3);
-        let replicas = material.replicas().iter();
+        let replicas = material.origin.replicas.iter();
         let replicas: Vec<_> = replicas
             .map(|replica| Some(loss_j(replica, omega)))
             .collect();
@@ -672,7 +674,7 @@ fn the_loss_with_a_replica_is_found_on_few_steps_and_springs() {
         sweep.unwrap().without_error_bars().solve().unwrap().records
     };
     let coarse = solve(material.clone());
-    for (k, replica) in material.replicas().iter().enumerate() {
+    for (k, replica) in material.origin.replicas.iter().enumerate() {
         for (with, alone) in coarse.iter().zip(solve(replica.clone())) {
             let result = with.result.as_ref().unwrap();
             let found_j = result.replica_losses_j[k].unwrap();
@@ -728,8 +730,8 @@ fn a_file_of_dynamic_data_becomes_a_material_at_a_temperature_with_replicas() {
     let plan = |sets: &[&str]| dynamic_plan(folder.path(), sets).unwrap();
     let identity = |sets: &[&str]| resolved::hash(&resolved_text(&plan(sets)));
     let own = plan(&[]);
-    assert_eq!(own.base.contact.material.temperature_k(), Some(293.15));
-    assert_eq!(own.base.contact.material.replicas().len(), 10);
+    assert_eq!(own.base.contact.material.origin.temperature_k, Some(293.15));
+    assert_eq!(own.base.contact.material.origin.replicas.len(), 10);
     let text = resolved_text(&own);
     let again = sweep_file::plan(&Document::parse("resolved.toml", &text).unwrap()).unwrap();
     assert_eq!(resolved_text(&again), text);
@@ -739,14 +741,14 @@ fn a_file_of_dynamic_data_becomes_a_material_at_a_temperature_with_replicas() {
         own.base.contact.material.relaxation()
     );
     assert_eq!(
-        again.base.contact.material.replicas(),
-        own.base.contact.material.replicas()
+        again.base.contact.material.origin.replicas,
+        own.base.contact.material.origin.replicas
     );
     // Colder by 40 K, two decades and two thirds: by so much slower, and measured at lower frequencies.
     let cold = plan(&["material.temperature=-20 °C"]).base.contact.material;
     let (warm_s, cold_s) = (
-        own.base.contact.material.measured_window_s(),
-        cold.measured_window_s(),
+        own.base.contact.material.origin.measured_window_s,
+        cold.origin.measured_window_s,
     );
     let decades = (cold_s.unwrap().0 / warm_s.unwrap().0).log10();
     assert!((decades - 8.0 * 40.0 / 60.0).abs() < 0.1, "{decades}");

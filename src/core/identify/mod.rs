@@ -205,8 +205,9 @@ impl IdentifyPlan {
     /// As [`Material::from_relaxation`].
     pub fn material_of(&self, found: &Identified) -> Result<Material, MaterialError> {
         let (lowest, highest) = found.window_rad_per_s;
-        let body = self.body(&found.relaxation)?;
-        Ok(body.measured((1.0 / highest, 1.0 / lowest)))
+        let mut body = self.body(&found.relaxation)?;
+        body.origin.measured_window_s = Some((1.0 / highest, 1.0 / lowest));
+        Ok(body)
     }
 
     /// The material of a series by itself.

@@ -55,8 +55,8 @@ use super::random::Noise;
 use super::spectrum::Series;
 use super::tabulated::Tabulated;
 use super::{
-    Compressibility, Creep, CreepBranch, Material, MaterialError, MaterialFunction, Relaxation,
-    RelaxationBranch,
+    Compressibility, Creep, CreepBranch, Material, MaterialError, MaterialFunction, Origin,
+    Relaxation, RelaxationBranch,
 };
 use crate::numerics::nnls::NnlsError;
 use report::FAR_FROM_EQUILIBRIUM;
@@ -475,10 +475,14 @@ impl Fit {
             }
         };
         let alternatives: Result<_, _> = self.alternatives.iter().map(material).collect();
-        Ok(material(&self.series)?
-            .with_fit(self.report.clone())
-            .measured(self.report.window_s)
-            .with_alternatives(alternatives?))
+        let mut made = material(&self.series)?;
+        made.origin = Origin {
+            fit: Some(self.report.clone()),
+            measured_window_s: Some(self.report.window_s),
+            alternatives: alternatives?,
+            ..Origin::default()
+        };
+        Ok(made)
     }
 }
 
@@ -856,7 +860,7 @@ mod tests {
             material.creep().compliance(t)
         });
         let built = fit.material(0.38).unwrap();
-        assert_eq!(built.fit(), Some(fit.report()));
+        assert_eq!(built.origin.fit.as_ref(), Some(fit.report()));
         assert_eq!(built.creep(), creep(&fit));
         assert!(fit.material(0.6).is_err());
         let text = fit.report().to_string();

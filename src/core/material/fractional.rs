@@ -31,7 +31,7 @@ use self::band::Band;
 use self::trapezoid::trapezoidal;
 use super::error::{MaterialError, non_negative, positive, refused};
 use super::relaxation::{Relaxation, RelaxationBranch};
-use super::{Compressibility, Material, ModulusKind};
+use super::{Compressibility, Material, ModulusKind, Origin};
 
 /// A fractional model: `E_inf + E (i omega tau)^a / (1 + (i omega tau)^c)`, the springpot without denominator.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,8 +76,8 @@ pub struct Represented {
 
 impl Represented {
     /// The material of the series, whose moduli are of this kind: with the band as the times of its
-    /// [window](Material::measured_window_s), the quality of the series, and the closer series as its
-    /// [alternative](Material::alternatives).
+    /// [window](Origin::measured_window_s), the quality of the series, and the closer series as its
+    /// [alternative](Origin::alternatives).
     ///
     /// # Errors
     /// As [`Material::from_relaxation`].
@@ -90,9 +90,14 @@ impl Represented {
         let made = |series| Material::from_relaxation(series, kind, compressibility.clone());
         let closer = self.closer.map(made).transpose()?;
         let (low, high) = self.approximation.band_rad_per_s;
-        let material = made(self.relaxation)?.measured((high.recip(), low.recip()));
-        let material = material.with_alternatives(closer.into_iter().collect());
-        Ok(material.approximated(self.approximation))
+        let mut material = made(self.relaxation)?;
+        material.origin = Origin {
+            measured_window_s: Some((high.recip(), low.recip())),
+            alternatives: closer.into_iter().collect(),
+            approximation: Some(self.approximation),
+            ..Origin::default()
+        };
+        Ok(material)
     }
 }
 

@@ -33,11 +33,10 @@ impl LibraryEntry {
 
     /// A material made of the numbers of this one, with its title and the times in which it was observed.
     pub fn describe(&self, material: Material) -> Material {
-        let material = material.named(self.title);
-        match self.measured_window_s {
-            Some(window_s) => material.measured(window_s),
-            None => material,
-        }
+        let mut material = material.named(self.title);
+        let window_s = self.measured_window_s;
+        material.origin.measured_window_s = window_s.or(material.origin.measured_window_s);
+        material
     }
 }
 
@@ -172,8 +171,10 @@ fn pvb() -> Result<Material, MaterialError> {
         c1_error: 0.0,
         c2_error_k: 0.0,
     };
-    let material = Material::from_relaxation(relaxation, ModulusKind::Shear, 0.49)?;
-    Ok(material.at_temperature(TEMPERATURE_K).shifting(law))
+    let mut material = Material::from_relaxation(relaxation, ModulusKind::Shear, 0.49)?;
+    material.origin.temperature_k = Some(TEMPERATURE_K);
+    material.origin.shift = Some(law);
+    Ok(material)
 }
 
 const fn elastic_entry(
@@ -252,7 +253,7 @@ mod tests {
         for entry in entries() {
             assert_eq!(entry.material().unwrap().name(), Some(entry.title));
             assert!(entry.material().unwrap().contact_compliance().is_ok());
-            let window_s = entry.material().unwrap().measured_window_s();
+            let window_s = entry.material().unwrap().origin.measured_window_s;
             assert!(window_s.is_none_or(|(first_s, last_s)| 0.0 < first_s && first_s < last_s));
             assert_eq!(find(&entry.name.to_uppercase()).unwrap().name, entry.name);
             assert_eq!(entry.name, entry.name.to_lowercase());
@@ -283,7 +284,10 @@ mod tests {
         // Table "PVB" of the Engineering Structural Glass Design Guide, MPa, to the digits it prints; as the package structuralglass
         // 0.0.3 gives it. From a day on the table repeats itself here and there, and is not the series any more.
         let pvb = find("pvb").unwrap().material().unwrap();
-        let (series, law) = (pvb.relaxation().unwrap(), pvb.shift().unwrap());
+        let (series, law) = (
+            pvb.relaxation().unwrap(),
+            pvb.origin.shift.as_ref().unwrap(),
+        );
         let temperatures_c = [20.0, 30.0, 40.0, 50.0];
         let table = [
             (3.0, [8.06, 0.971, 0.610, 0.440]),

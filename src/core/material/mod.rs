@@ -118,15 +118,37 @@ pub struct Material {
     given: MaterialFunction,
     creep: Creep,
     relaxation: Option<Relaxation>,
-    fit: Option<fit::FitReport>,
-    approximation: Option<fractional::Approximation>,
-    shift: Option<dynamic::shift_law::Wlf>,
-    measured_window_s: Option<(f64, f64)>,
-    temperature_k: Option<f64>,
-    isotherms_k: Option<(f64, f64)>,
-    alternatives: Vec<Material>,
-    replicas: Vec<Material>,
     indenter_material: Option<Box<Material>>,
+    /// What is known of where its numbers come from.
+    pub origin: Origin,
+}
+
+/// Where the numbers of a material come from: data, a fit, a model that the series stands for.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Origin {
+    /// Where the material was fitted to a table: how well, and what was assumed.
+    pub fit: Option<fit::FitReport>,
+    /// Where the material stands for a fractional model: over which band, and how well.
+    pub approximation: Option<fractional::Approximation>,
+    /// First and last time (s) at which the material was observed. What it does at angular frequencies outside
+    /// `1/last < omega < 1/first` is an extrapolation.
+    pub measured_window_s: Option<(f64, f64)>,
+    /// The temperature (K) that the material is at.
+    pub temperature_k: Option<f64>,
+    /// How the material shifts in time with the temperature, from its own on.
+    pub shift: Option<dynamic::shift_law::Wlf>,
+    /// Lowest and highest temperature (K) of the isotherms that the material comes from. What it does at a temperature outside is an
+    /// extrapolation of its shift.
+    pub isotherms_k: Option<(f64, f64)>,
+    /// Materials of the same kind that this one may be as well: what a result with one of them differs by is an error of the result.
+    /// Beside a series fitted to a table they fit the data about as well, and differ in what the data leave open: the equilibrium
+    /// modulus at its lowest and highest, and the instantaneous one. Beside the series of a fractional model, one that is far closer
+    /// to the model. They have no alternatives of their own. Empty where nothing is open.
+    pub alternatives: Vec<Material>,
+    /// Materials of the same kind, drawn at random: what the fit gives where the noise of the data falls otherwise. All are alike in
+    /// probability, and have no replicas and no window of their own. What a result is with each of them tells its uncertainty. Empty
+    /// where none were drawn.
+    pub replicas: Vec<Material>,
 }
 
 impl Material {
@@ -194,15 +216,8 @@ impl Material {
             given,
             creep,
             relaxation,
-            fit: None,
-            approximation: None,
-            shift: None,
-            measured_window_s: None,
-            temperature_k: None,
-            isotherms_k: None,
-            alternatives: Vec::new(),
-            replicas: Vec::new(),
             indenter_material: None,
+            origin: Origin::default(),
         }
     }
 
@@ -212,104 +227,10 @@ impl Material {
         self
     }
 
-    /// The same material, known to come from a fit.
-    pub fn with_fit(mut self, report: fit::FitReport) -> Self {
-        self.fit = Some(report);
-        self
-    }
-
-    /// The same material, known to shift in time with the temperature by this law, which refers to the material's own.
-    pub fn shifting(mut self, law: dynamic::shift_law::Wlf) -> Self {
-        self.shift = Some(law);
-        self
-    }
-
-    /// How the material shifts in time with the temperature, where that is known, from the temperature of its series on.
-    pub fn shift(&self) -> Option<&dynamic::shift_law::Wlf> {
-        self.shift.as_ref()
-    }
-
-    /// The same material, known to stand for a fractional model.
-    pub fn approximated(mut self, approximation: fractional::Approximation) -> Self {
-        self.approximation = Some(approximation);
-        self
-    }
-
-    /// Where the material stands for a fractional model: over which band, and how well.
-    pub fn approximation(&self) -> Option<&fractional::Approximation> {
-        self.approximation.as_ref()
-    }
-
-    /// The same material, known to have been measured from the first to the second of these times (s).
-    pub fn measured(mut self, window_s: (f64, f64)) -> Self {
-        self.measured_window_s = Some(window_s);
-        self
-    }
-
-    /// First and last time (s) at which the material was observed, where that is known. What it does at angular frequencies
-    /// outside `1/last < omega < 1/first` is an extrapolation.
-    pub fn measured_window_s(&self) -> Option<(f64, f64)> {
-        self.measured_window_s
-    }
-
-    /// The same material, known to be any of these for all that is known of it: what a result with one of them differs by is an
-    /// error of the result.
-    pub fn with_alternatives(mut self, alternatives: Vec<Material>) -> Self {
-        self.alternatives = alternatives;
-        self
-    }
-
-    /// Materials of the same kind that this one may be as well. Beside a series fitted to a table they fit the data about as well,
-    /// and differ in what the data leave open: the equilibrium modulus at its lowest and highest, and the instantaneous one. Beside the
-    /// series of a fractional model, one that is far closer to the model. They have no alternatives of their own. Empty where
-    /// nothing is open.
-    pub fn alternatives(&self) -> &[Material] {
-        &self.alternatives
-    }
-
-    /// The same material, known to be at this temperature (K).
-    pub fn at_temperature(mut self, temperature_k: f64) -> Self {
-        self.temperature_k = Some(temperature_k);
-        self
-    }
-
-    /// The temperature (K) that the material is at, where that is known.
-    pub fn temperature_k(&self) -> Option<f64> {
-        self.temperature_k
-    }
-
-    /// The same material, known to come from isotherms between the first and the second of these temperatures (K).
-    pub fn measured_at_temperatures(mut self, isotherms_k: (f64, f64)) -> Self {
-        self.isotherms_k = Some(isotherms_k);
-        self
-    }
-
-    /// Lowest and highest temperature (K) of the isotherms that the material comes from, where that is known. What it does at a
-    /// temperature outside is an extrapolation of its shift.
-    pub fn isotherms_k(&self) -> Option<(f64, f64)> {
-        self.isotherms_k
-    }
-
-    /// The same material, known to be one of these but for the noise of the data that it was fitted to.
-    /// The times of the test are those of the material, and not of each replica.
-    pub fn with_replicas(mut self, mut replicas: Vec<Material>) -> Self {
-        for replica in &mut replicas {
-            replica.measured_window_s = None;
-        }
-        self.replicas = replicas;
-        self
-    }
-
-    /// Materials of the same kind, drawn at random: what the fit gives where the noise of the data falls otherwise. All are alike
-    /// in probability, and have no replicas of their own. What a result is with each of them tells its uncertainty. Empty where
-    /// none were drawn.
-    pub fn replicas(&self) -> &[Material] {
-        &self.replicas
-    }
-
     /// The same material, pressed by an indenter of this one in place of a rigid one.
     pub fn against(mut self, indenter: Material) -> Self {
-        for other in self.alternatives.iter_mut().chain(&mut self.replicas) {
+        let origin = &mut self.origin;
+        for other in origin.alternatives.iter_mut().chain(&mut origin.replicas) {
             *other = other.clone().against(indenter.clone());
         }
         self.indenter_material = Some(Box::new(indenter));
@@ -342,11 +263,6 @@ impl Material {
             }))
         };
         Ok(pair.branches().iter().map(share).collect())
-    }
-
-    /// Where the material was fitted to a table: how well, and what was assumed.
-    pub fn fit(&self) -> Option<&fit::FitReport> {
-        self.fit.as_ref()
     }
 
     /// The name, if it has one.

@@ -76,17 +76,17 @@ impl BodyMaterial {
     }
 
     /// The same material, known to have been measured between these times (s); samples say that themselves.
-    pub fn measured(self, window_s: (f64, f64)) -> Self {
-        match self {
-            Self::Series(material) => material.measured(window_s).into(),
-            samples @ Self::Samples(_) => samples,
+    pub fn measured(mut self, window_s: (f64, f64)) -> Self {
+        if let Self::Series(material) = &mut self {
+            material.origin.measured_window_s = Some(window_s);
         }
+        self
     }
 
     /// First and last time (s) at which the material was observed, where that is known.
     pub fn measured_window_s(&self) -> Option<(f64, f64)> {
         match self {
-            Self::Series(material) => material.measured_window_s(),
+            Self::Series(material) => material.origin.measured_window_s,
             Self::Samples(sampled) => Some(sampled.table().window_s()),
         }
     }

@@ -52,7 +52,7 @@ fn material_error(plan: &ScenarioPlan) -> Option<Warning> {
         .series()
         .into_iter()
         .chain(material.indenter_material());
-    let others = bodies.map(|body| body.alternatives().len() + body.replicas().len());
+    let others = bodies.map(|body| body.origin.alternatives.len() + body.origin.replicas.len());
     let others = others.sum();
     (is_noisy || others > 0).then_some(Warning::NoMaterialError { others })
 }

@@ -465,12 +465,12 @@ fn check_contact(problems: &Problems, material: &Located<Material>) -> bool {
             "this material is a fluid, and a sweep looks for a stabilised cycle",
         )
         .because("creeps without end under a mean load")
-        .help(match material.value.fit() {
+        .help(match material.value.origin.fit.as_ref() {
             Some(_) => {
                 "write `flow = false` in [material.table] for the solid that fits best, or follow one history \
                  with `contact-dma simulate`"
             }
-            None if material.value.approximation().is_some() => {
+            None if material.value.origin.approximation.is_some() => {
                 "write model = \"zener\" with an equilibrium modulus above zero, or follow one history with \
                  `contact-dma simulate`"
             }

@@ -105,7 +105,7 @@ pub fn page(material: &Material, about: &About<'_>) -> Result<String, ReportErro
 fn described(material: &Material, text: &str) -> Markup {
     let lines = text.replace("Source:", "\u{0}Source:");
     let paragraphs = lines.split('\u{0}').map(str::trim);
-    let is_told = |paragraph: &&str| !paragraph.is_empty() && material.fit().is_none();
+    let is_told = |paragraph: &&str| !paragraph.is_empty() && material.origin.fit.is_none();
     html! { @for paragraph in paragraphs.filter(is_told) { p { (paragraph) } } }
 }
 

@@ -176,7 +176,7 @@ pub(super) fn material(material: &Material) -> Markup {
             facts.add("branches: compliance, retardation time", list(lines));
         }
     }
-    if let Some(fit) = material.fit() {
+    if let Some(fit) = material.origin.fit.as_ref() {
         facts.add("fitted to data", list(fit.to_string().lines()));
     }
     facts.html()

@@ -368,7 +368,7 @@ fn master_points(data: &DynamicData, master: Option<&MasterCurve>) -> Vec<Dynami
 impl Characterisation {
     /// The material at a temperature (K), or at that of the series.
     ///
-    /// Its [measured times](Material::measured_window_s) are one over the angular frequencies of the data, shifted to this
+    /// Its [measured times](super::Origin::measured_window_s) are one over the angular frequencies of the data, shifted to this
     /// temperature: a frequency outside is an extrapolation.
     ///
     /// # Errors
@@ -392,23 +392,18 @@ impl Characterisation {
         temperature_k: Option<f64>,
         poisson_ratio: f64,
     ) -> Result<Material, DynamicError> {
-        let material = self.material(temperature_k, poisson_ratio)?;
-        let replicas = self.replica_materials(temperature_k, poisson_ratio)?;
-        let material = material.with_replicas(replicas);
-        let Some(temperature_k) = temperature_k.or(self.temperature_k) else {
-            return Ok(material);
-        };
-        let mut material = material.at_temperature(temperature_k);
-        let shifts = self.master.as_ref().map(|master| master.shifts.as_slice());
-        if let Some([first, .., last]) = shifts {
-            material = material.measured_at_temperatures((first.temperature_k, last.temperature_k));
+        let mut material = self.material(temperature_k, poisson_ratio)?;
+        let origin = &mut material.origin;
+        origin.replicas = self.replica_materials(temperature_k, poisson_ratio)?;
+        origin.temperature_k = temperature_k.or(self.temperature_k);
+        if let (Some(master), Some(own_k)) = (&self.master, origin.temperature_k) {
+            if let [first, .., last] = master.shifts.as_slice() {
+                origin.isotherms_k = Some((first.temperature_k, last.temperature_k));
+            }
+            let law = master.preferred.map(Wlf::from);
+            origin.shift = law.and_then(|law| law.referred_to(own_k));
         }
-        let law = self.master.as_ref().and_then(|master| master.preferred);
-        let law = law.and_then(|law| Wlf::from(law).referred_to(temperature_k));
-        Ok(match law {
-            Some(law) => material.shifting(law),
-            None => material,
-        })
+        Ok(material)
     }
 
     /// The replicas at a temperature, each by its own shift factors, as [`material`](Self::material).
@@ -420,13 +415,13 @@ impl Characterisation {
         temperature_k: Option<f64>,
         poisson_ratio: f64,
     ) -> Result<Vec<Material>, DynamicError> {
-        let replicas = self.replicas.iter();
-        replicas
-            .map(|replica| {
-                let master = replica.master.as_ref();
-                self.at(temperature_k, &replica.relaxation, master, poisson_ratio)
-            })
-            .collect()
+        let material = |replica: &replicas::Replica| {
+            let (series, master) = (&replica.relaxation, replica.master.as_ref());
+            let mut material = self.at(temperature_k, series, master, poisson_ratio)?;
+            material.origin.measured_window_s = None;
+            Ok(material)
+        };
+        self.replicas.iter().map(material).collect()
     }
 
     fn at(
@@ -446,8 +441,9 @@ impl Characterisation {
         });
         let shifted = Relaxation::new(relaxation.equilibrium_modulus() / b_t, branches.collect())?;
         let (lowest, highest) = self.fit.window_rad_per_s;
-        let material = Material::from_relaxation(shifted, self.kind, poisson_ratio)?;
-        Ok(material.measured((a_t / highest, a_t / lowest)))
+        let mut material = Material::from_relaxation(shifted, self.kind, poisson_ratio)?;
+        material.origin.measured_window_s = Some((a_t / highest, a_t / lowest));
+        Ok(material)
     }
 
     /// Shift factors, horizontal and vertical, to a temperature.

@@ -367,7 +367,10 @@ mod tests {
                 .unwrap(),
         );
         let (lowest, highest) = one.fit.window_rad_per_s;
-        assert_eq!(own.measured_window_s(), Some((a_t / highest, a_t / lowest)));
+        assert_eq!(
+            own.origin.measured_window_s,
+            Some((a_t / highest, a_t / lowest))
+        );
         let omega = 2.0;
         let (shifted, own) = (
             own.longitudinal_complex_modulus(omega),

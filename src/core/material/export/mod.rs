@@ -271,7 +271,7 @@ impl<'a> Series<'a> {
             ),
             "Units: Pa, s, K.".to_owned(),
         ];
-        if let Some((first, last)) = self.material.measured_window_s() {
+        if let Some((first, last)) = self.material.origin.measured_window_s {
             remarks.push(format!(
                 "Known from {:.3e} to {:.3e} rad/s; an extrapolation elsewhere.",
                 last.recip(),

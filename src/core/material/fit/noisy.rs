@@ -167,7 +167,7 @@ fn the_loss_of_a_solid_from_a_table_is_in_its_error() {
         for step in 0..7 {
             let omega = last_s.powf(-(f64::from(step) + 0.5) / 7.0);
             let own = loss_compliance(&fitted, omega);
-            let others = fitted.alternatives().iter();
+            let others = fitted.origin.alternatives.iter();
             let differences = others.map(|other| (loss_compliance(other, omega) - own).abs());
             let error = differences.fold(0.0, f64::max);
             let off = (loss_compliance(&truth, omega) - own).abs();
@@ -182,7 +182,7 @@ fn the_loss_of_a_solid_from_a_table_is_in_its_error() {
             face.name(),
             fit.report().branches,
             all.len(),
-            fitted.alternatives().len(),
+            fitted.origin.alternatives.len(),
             widths
         );
     }
@@ -207,9 +207,14 @@ fn the_alternatives_span_the_modulus_of_a_solid_whose_test_ends_before_it_has_re
         let truth = relaxing(&all, 1e6);
         let fit = times.measured(MaterialFunction::Relaxation, &truth, noise, &mut random);
         let fitted = fit.material(0.3).unwrap();
-        assert_eq!(fitted.measured_window_s(), Some((1.0, last_s)));
-        let others = fitted.alternatives();
-        assert!(others.len() >= 2 && others.iter().all(|other| other.alternatives().is_empty()));
+        assert_eq!(fitted.origin.measured_window_s, Some((1.0, last_s)));
+        let others = &fitted.origin.alternatives;
+        assert!(
+            others.len() >= 2
+                && others
+                    .iter()
+                    .all(|other| other.origin.alternatives.is_empty())
+        );
         let equilibrium = |m: &Material| m.relaxation().unwrap().equilibrium_modulus();
         let least = others.iter().map(equilibrium).fold(f64::INFINITY, f64::min);
         let most = others.iter().map(equilibrium).fold(0.0, f64::max);

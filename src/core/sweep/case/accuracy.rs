@@ -98,7 +98,15 @@ impl Levels<'_> {
 
     /// Why no resolution reaches the accuracy: the material alone leaves this share of the loss open.
     fn open_by_material(&self, share: f64, accuracy: f64) -> String {
-        let advice = match self.contact.condition.contact.material.approximation() {
+        let advice = match self
+            .contact
+            .condition
+            .contact
+            .material
+            .origin
+            .approximation
+            .as_ref()
+        {
             Some(_) => "; write a smaller `accuracy` in [material.fractional]",
             None => "",
         };

@@ -17,7 +17,7 @@ pub(crate) fn warnings(
     result: Option<&CaseResult>,
     error_bars_wanted: bool,
 ) -> Vec<Warning> {
-    let window = condition.contact.material.measured_window_s();
+    let window = condition.contact.material.origin.measured_window_s;
     let mut warnings: Vec<Warning> = of_frequency(window, omega).into_iter().collect();
     warnings.extend(Warning::of_temperature(&condition.contact.material));
     let Some(result) = result else {

@@ -68,9 +68,9 @@ impl Solid {
         };
         // The indenter's own differ from its material one at a time, as those of the body do.
         let indenter = material.indenter_material().into_iter();
-        let indenters = indenter.flat_map(Material::alternatives);
+        let indenters = indenter.flat_map(|indenter| &indenter.origin.alternatives);
         let with_other = |other: &Material| material.clone().against(other.clone());
-        let mut alternatives = material.alternatives().to_vec();
+        let mut alternatives = material.origin.alternatives.to_vec();
         alternatives.extend(indenters.map(with_other));
         let alternatives = solids(&alternatives)?.into_iter().flatten();
         Ok(Self {
@@ -79,7 +79,7 @@ impl Solid {
             compliance,
             shares_of_indenter: material.shares_of_indenter()?,
             alternatives: alternatives.collect(),
-            replicas: solids(material.replicas())?,
+            replicas: solids(&material.origin.replicas)?,
         })
     }
 }

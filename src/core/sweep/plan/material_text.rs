@@ -7,7 +7,7 @@ use crate::sweep::plan::resolved::{entry, numbers, quoted, toml_string};
 /// The material as the block of a sweep file that gives the same material again.
 pub fn material_text(material: &Material) -> String {
     let head = head_text(material);
-    if material.temperature_k().is_some() {
+    if material.origin.temperature_k.is_some() {
         return head + &isotherm_text(material);
     }
     let kind = material.kind().name();
@@ -18,7 +18,7 @@ pub fn material_text(material: &Material) -> String {
     let bulk = material.compressibility().bulk_modulus();
     let bulk = bulk.filter(|bulk| !bulk.branches().is_empty());
     let bulk = bulk.map(|bulk| format!("\n[material.bulk_modulus]\n{}", relaxation_text(bulk)));
-    let alternatives = material.alternatives().iter();
+    let alternatives = material.origin.alternatives.iter();
     // There may be dozens, so the branches of each are one line.
     let alternatives = alternatives.map(|other| {
         let series = series_text(other).replace("[\n    ", "[");
@@ -41,7 +41,8 @@ pub fn material_text(material: &Material) -> String {
 pub(super) fn text_over_temperatures<'a>(materials: impl Iterator<Item = &'a Material>) -> String {
     let mut each: Vec<&Material> = Vec::new();
     for material in materials {
-        let is_known = |other: &&Material| other.temperature_k() == material.temperature_k();
+        let is_known =
+            |other: &&Material| other.origin.temperature_k == material.origin.temperature_k;
         if !each.iter().any(is_known) {
             each.push(material);
         }
@@ -83,7 +84,7 @@ pub(crate) fn compressibility_line(compressibility: &Compressibility) -> Option<
 }
 
 fn temperature_text(material: &Material) -> String {
-    let temperature = material.temperature_k();
+    let temperature = material.origin.temperature_k;
     entry(
         "temperature",
         temperature.map(|k| quoted(k, Dimension::Temperature)),
@@ -91,7 +92,7 @@ fn temperature_text(material: &Material) -> String {
 }
 
 fn isotherm_text(material: &Material) -> String {
-    let law = material.shift();
+    let law = material.origin.shift.as_ref();
     [
         "\n[[material.isotherm]]\n".to_owned(),
         temperature_text(material),
@@ -109,7 +110,7 @@ fn isotherm_text(material: &Material) -> String {
 }
 
 fn measured_text(material: &Material) -> String {
-    let window = material.measured_window_s().map(|(first_s, last_s)| {
+    let window = material.origin.measured_window_s.map(|(first_s, last_s)| {
         let [first, last] = [first_s, last_s].map(|time_s| quoted(time_s, Dimension::Time));
         format!("[{first}, {last}]")
     });
@@ -117,7 +118,7 @@ fn measured_text(material: &Material) -> String {
 }
 
 fn isotherms_text(material: &Material) -> String {
-    let ends = material.isotherms_k().map(|(lowest_k, highest_k)| {
+    let ends = material.origin.isotherms_k.map(|(lowest_k, highest_k)| {
         let ends = [lowest_k, highest_k].map(|k| quoted(k, Dimension::Temperature));
         format!("[{}, {}]", ends[0], ends[1])
     });
@@ -126,7 +127,11 @@ fn isotherms_text(material: &Material) -> String {
 
 /// The replicas, as bare numbers: there may be hundreds.
 fn replicas_text(material: &Material) -> String {
-    let replicas = material.replicas().iter().filter_map(Material::relaxation);
+    let replicas = material
+        .origin
+        .replicas
+        .iter()
+        .filter_map(Material::relaxation);
     let rows: String = replicas
         .map(|replica| {
             let branches = || replica.branches().iter();

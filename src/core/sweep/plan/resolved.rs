@@ -132,7 +132,8 @@ pub(crate) fn cycle_text(cycle: &CyclePlan) -> String {
 /// The `[indenter.material]` block.
 pub(crate) fn indenter_material_text(material: &Material) -> String {
     // Only the material of the body has alternatives in a file.
-    let own = material.clone().with_alternatives(Vec::new());
+    let mut own = material.clone();
+    own.origin.alternatives.clear();
     let moved = |line: &str| match line.split_once("[material") {
         // A header, and not a name with these letters.
         Some((brackets @ ("" | "["), rest)) => format!("{brackets}[indenter.material{rest}"),

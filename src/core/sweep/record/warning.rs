@@ -111,8 +111,10 @@ impl NoErrorBars {
 impl Warning {
     /// What is to be said of the temperature of a material.
     pub(crate) fn of_temperature(material: &Material) -> Option<Self> {
-        let (temperature_k, (lowest_k, highest_k)) =
-            material.temperature_k().zip(material.isotherms_k())?;
+        let (temperature_k, (lowest_k, highest_k)) = material
+            .origin
+            .temperature_k
+            .zip(material.origin.isotherms_k)?;
         let within = lowest_k - SAME_TEMPERATURE_K..=highest_k + SAME_TEMPERATURE_K;
         (!within.contains(&temperature_k)).then_some(Self::OutsideIsotherms {
             temperature_k,
