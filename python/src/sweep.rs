@@ -15,7 +15,7 @@ use contact_dma::sweep::plan::resolved::{hash, resolved_text};
 use contact_dma::sweep::plan::{Case, SweepPlan};
 use contact_dma::sweep::record::{CaseRecord, RecordedCycle};
 use contact_dma::sweep::search::peak::Peak;
-use contact_dma::sweep::search::run::{self, Options, Outcome, Progress};
+use contact_dma::sweep::search::run::{self, Mode, Outcome, Progress};
 use contact_dma::sweep::store::provenance::{BUILD, Circumstances, Stopwatch};
 use contact_dma::sweep::store::{Archive, RESOLVED, Store, merge, records};
 use numpy::{IntoPyArray, PyArray1};
@@ -394,10 +394,10 @@ pub fn sweep(
             counter: &counter,
             notes: &notes,
         };
-        run::run_with(
+        run::run(
             &setup,
             &memory,
-            &Options::on_threads(threads),
+            Mode::on_threads(threads),
             &interrupt,
             &count,
         )
@@ -483,7 +483,8 @@ fn collected(
         counter: &counter,
         notes: &notes,
     };
-    let found = py.detach(|| run::collect(&setup, records.archive(), &count));
+    let found =
+        py.detach(|| run::run(&setup, records.archive(), Mode::Read, &false.into(), &count));
     let outcome = found.map_err(|error| failure::of_sweep(&error))?;
     Ok(Sweep {
         plan: setup.plan().clone(),

@@ -16,7 +16,7 @@ use crate::input::sweep_file;
 use crate::sweep::case::Setup;
 use crate::sweep::plan::resolved::{self, identity};
 use crate::sweep::plan::{Case, Condition};
-use crate::sweep::search::run::{self, Options, Progress};
+use crate::sweep::search::run::{self, Mode, Progress};
 use crate::sweep::store::difference;
 use crate::sweep::store::manifest::{Kind, kind_of};
 use crate::sweep::store::merge;
@@ -124,10 +124,11 @@ pub(super) fn merge(flags: &MergeFlags, format: OutputFormat) -> Result<Ended, F
     }
     let interrupt = interruption::flag();
     let setup = setup.interrupted_by(Arc::clone(&interrupt));
-    let options = Options::on_threads(run::useful_threads(flags.threads));
-    let outcome = run::run_with(&setup, &out, &options, &interrupt, &progress);
+    let threads = run::useful_threads(flags.threads);
+    let mode = Mode::on_threads(threads);
+    let outcome = run::run(&setup, &out, mode, &interrupt, &progress);
     let job = Job {
-        threads: options.threads,
+        threads,
         found: progress.finish(),
         ..Job::new("merge", clock, (&setup, &out), (format, flags.quiet))
     };
@@ -150,7 +151,7 @@ pub(super) fn report(flags: &ReportFlags, format: OutputFormat) -> Result<Ended,
     };
     let setup = setup_of(&flags.folder, &resolved, &flags.set)?;
     let progress = Shown::new(setup.plan(), setup.plan().cases().len(), flags.quiet);
-    let outcome = run::collect(&setup, &store, &progress)?;
+    let outcome = run::run(&setup, &store, Mode::Read, &false.into(), &progress)?;
     progress.finish();
     if outcome.records.is_empty() {
         return Err(Failure::Input(format!(

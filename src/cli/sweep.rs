@@ -3,7 +3,6 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use clap::Args;
@@ -22,7 +21,7 @@ use crate::sweep::case::Setup;
 use crate::sweep::plan::Block;
 use crate::sweep::plan::resolved;
 use crate::sweep::record::CaseRecord;
-use crate::sweep::search::run::{self, Options, Outcome};
+use crate::sweep::search::run::{self, Mode, Outcome};
 use crate::sweep::share::shard::{self, Shard};
 use crate::sweep::store::provenance::{Circumstances, Stopwatch};
 use crate::sweep::store::{Store, checkpoint_file};
@@ -106,33 +105,35 @@ pub(super) fn run(flags: &SweepFlags, format: OutputFormat) -> Result<Ended, Fai
     let store = open_store((&flags.file, &document), out, &resolved)?;
     let interrupt = interruption::flag();
     let setup = setup.interrupted_by(Arc::clone(&interrupt));
-    let options = Options {
-        threads: run::useful_threads(flags.threads),
+    let threads = run::useful_threads(flags.threads);
+    let mode = Mode::Solve {
+        threads,
         checkpoint_every: Duration::from_secs(flags.checkpoint_every),
+        shard: flags.shard,
     };
     let drawing_bytes = match flags.no_figures {
         true => 0,
-        false => drawing_bytes(&setup.plan().figures, options.threads),
+        false => drawing_bytes(&setup.plan().figures, threads),
     };
-    memory::warn_if_short(
-        setup.predicted_memory_bytes(),
-        options.threads,
-        drawing_bytes,
-    );
+    memory::warn_if_short(setup.predicted_memory_bytes(), threads, drawing_bytes);
     let mut job = Job {
         figures: !flags.no_figures,
         cycles: flags.cycles,
         stats: flags.stats,
-        threads: options.threads,
+        threads,
         ..Job::new("sweep", clock, (&setup, &store), (format, flags.quiet))
     };
-    if let Some(shard) = flags.shard {
-        return run_shard(job, shard, &options, &interrupt);
-    }
-    let progress = Shown::new(setup.plan(), setup.plan().cases().len(), flags.quiet);
-    let outcome = run::run_with(&setup, &store, &options, &interrupt, &progress);
+    let own = match flags.shard {
+        Some(shard) => shard::cases(&setup, shard).len(),
+        None => setup.plan().cases().len(),
+    };
+    let progress = Shown::new(setup.plan(), own, flags.quiet);
+    let outcome = run::run(&setup, &store, mode, &interrupt, &progress);
     job.found = progress.finish();
-    job.finish(outcome?)
+    match flags.shard {
+        Some(shard) => job.finish_shard(shard, own, outcome?),
+        None => job.finish(outcome?),
+    }
 }
 
 /// A run that has come to its end, and what it takes to tell of it.
@@ -265,44 +266,39 @@ impl<'a> Job<'a> {
             &circumstances,
         )?)
     }
-}
 
-fn run_shard(
-    mut job: Job<'_>,
-    shard: Shard,
-    options: &Options,
-    interrupt: &AtomicBool,
-) -> Result<Ended, Failure> {
-    let own = shard::cases(job.setup, shard).len();
-    let progress = Shown::new(job.setup.plan(), own, job.quiet);
-    let part = run::run_shard(job.setup, job.store, shard, options, interrupt, &progress);
-    job.found = progress.finish();
-    let part = part?;
-    let done = part.records.len();
-    job.sign(done, part.interrupted, Some(shard))?;
-    if let Some(whole) = part.whole {
-        return job.finish(whole);
-    }
-    let found = json!({
-        "shard": shard.to_string(),
-        "cases_done": done,
-        "cases_of_shard": own,
-        "cases_missing": part.missing,
-        "interrupted": part.interrupted,
-    });
-    let next = match part.interrupted {
-        true => "Interrupted: the same command goes on from here.".to_owned(),
-        false => format!(
-            "{} cases of the other shards are missing in this folder. The process that ends last locates the peaks and \
+    /// Tells of a shard, or, where it was the last, of the whole sweep.
+    fn finish_shard(&self, shard: Shard, own: usize, outcome: Outcome) -> Result<Ended, Failure> {
+        let done = match outcome.missing {
+            0 => own,
+            _ => outcome.records.len(),
+        };
+        self.sign(done, outcome.interrupted, Some(shard))?;
+        if outcome.missing == 0 {
+            return self.finish(outcome);
+        }
+        let found = json!({
+            "shard": shard.to_string(),
+            "cases_done": done,
+            "cases_of_shard": own,
+            "cases_missing": outcome.missing,
+            "interrupted": outcome.interrupted,
+        });
+        let next = match outcome.interrupted {
+            true => "Interrupted: the same command goes on from here.".to_owned(),
+            false => format!(
+                "{} cases of the other shards are missing in this folder. The process that ends last locates the peaks and \
              draws the\nfigures; where the shards have folders of their own, `contact-dma merge` does.",
-            part.missing
-        ),
-    };
-    let folder = job.store.folder().display();
-    let text =
-        format!("Shard {shard}: {done} of {own} cases are done. {next}\n\nRecords in {folder}\n");
-    tell(job.format, job.quiet, || Ok(found), || text)?;
-    Ok(ended(part.interrupted, &part.records))
+                outcome.missing
+            ),
+        };
+        let folder = self.store.folder().display();
+        let text = format!(
+            "Shard {shard}: {done} of {own} cases are done. {next}\n\nRecords in {folder}\n"
+        );
+        tell(self.format, self.quiet, || Ok(found), || text)?;
+        Ok(ended(outcome.interrupted, &outcome.records))
+    }
 }
 
 fn ended(interrupted: bool, records: &[CaseRecord]) -> Ended {

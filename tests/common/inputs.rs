@@ -329,6 +329,7 @@ impl Folder {
                 records: vec![*record],
                 peaks: Vec::new(),
                 peak_problems: Vec::new(),
+                missing: 0,
                 interrupted: true,
             }),
             Ok(Kept::Absent | Kept::OfAnotherBuild { .. } | Kept::Unusable { .. }) | Err(_) => None,

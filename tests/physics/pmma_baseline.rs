@@ -9,7 +9,7 @@ use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::resolved;
 use contact_dma::sweep::record::CaseRecord;
 use contact_dma::sweep::search::peak::Peak;
-use contact_dma::sweep::search::run::{self, Outcome, Progress};
+use contact_dma::sweep::search::run::{self, Mode, Outcome, Progress};
 use contact_dma::sweep::store::Store;
 
 struct Silent;
@@ -26,7 +26,14 @@ fn main_job() -> Outcome {
     let text = resolved::resolved_text(setup.plan());
     let folder = tempfile::TempDir::new().unwrap();
     let store = Store::open(folder.path(), &text, false).unwrap();
-    run::run(&setup, &store, 2, &AtomicBool::new(false), &Silent).unwrap()
+    run::run(
+        &setup,
+        &store,
+        Mode::on_threads(2),
+        &AtomicBool::new(false),
+        &Silent,
+    )
+    .unwrap()
 }
 
 fn relative(found: f64, expected: f64) -> f64 {

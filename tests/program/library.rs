@@ -18,7 +18,7 @@ use contact_dma::prelude::*;
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::resolved::resolved_text;
 use contact_dma::sweep::record::Status;
-use contact_dma::sweep::search::run::{self, Progress};
+use contact_dma::sweep::search::run::{self, Mode, Progress};
 use contact_dma::sweep::store::Store;
 use contact_dma::sweep::store::records::Records;
 
@@ -58,7 +58,7 @@ fn a_sweep_from_values_in_memory_is_that_of_a_file_in_a_folder_to_the_last_bit()
     let store = Store::open(folder.path(), &resolved_text(&plan), false).unwrap();
     let setup = Setup::new(plan).unwrap();
     let never = AtomicBool::new(false);
-    let of_file = run::run(&setup, &store, 2, &never, &Silent).unwrap();
+    let of_file = run::run(&setup, &store, Mode::on_threads(2), &never, &Silent).unwrap();
     assert!(of_file.records.len() > 8, "nothing was refined");
     assert!(!of_file.peaks.is_empty());
 
@@ -76,12 +76,12 @@ fn an_archive_in_memory_keeps_what_was_solved() {
     let plan = sweep().frequencies_hz([1e-3, 1e-2]).unwrap().into_plan();
     let (setup, archive) = (Setup::new(plan).unwrap(), Records::default());
     let stopped = AtomicBool::new(true);
-    let nothing = run::run(&setup, &archive, 1, &stopped, &Silent).unwrap();
+    let nothing = run::run(&setup, &archive, Mode::on_threads(1), &stopped, &Silent).unwrap();
     assert!(nothing.interrupted && nothing.records.is_empty());
     let never = AtomicBool::new(false);
-    let outcome = run::run(&setup, &archive, 2, &never, &Silent).unwrap();
+    let outcome = run::run(&setup, &archive, Mode::on_threads(2), &never, &Silent).unwrap();
     assert_eq!(outcome.records.len(), 2);
-    let again = run::collect(&setup, &archive, &Silent).unwrap();
+    let again = run::run(&setup, &archive, Mode::Read, &never, &Silent).unwrap();
     assert_eq!(again, outcome);
 }
 

@@ -18,7 +18,7 @@ use contact_dma::report;
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::{Axes, AxisValue, AxisValues, Block, Condition, SweepPlan, Varied};
 use contact_dma::sweep::record::CaseRecord;
-use contact_dma::sweep::search::run::{self, Outcome, Progress};
+use contact_dma::sweep::search::run::{self, Mode, Outcome, Progress};
 use contact_dma::sweep::store::Store;
 use contact_dma::sweep::store::files;
 use tempfile::TempDir;
@@ -41,7 +41,14 @@ fn swept(plan: SweepPlan) -> Swept {
     let folder = TempDir::new().unwrap();
     let setup = Setup::new(plan).unwrap();
     let store = Store::open(folder.path(), "a sweep", false).unwrap();
-    let outcome = run::run(&setup, &store, 2, &AtomicBool::new(false), &Silent).unwrap();
+    let outcome = run::run(
+        &setup,
+        &store,
+        Mode::on_threads(2),
+        &AtomicBool::new(false),
+        &Silent,
+    )
+    .unwrap();
     let left_out = report::write_sweep(&store, setup.plan(), &outcome).unwrap();
     Swept {
         folder,

@@ -71,6 +71,7 @@ pub fn along(plan: &SweepPlan, outcome: &Outcome, axis: usize) -> Option<Line> {
             peaks: peaks.map(peak).collect(),
             peak_problems: outcome.peak_problems.clone(),
             interrupted: outcome.interrupted,
+            missing: outcome.missing,
         },
         sentence: (!axes.pairs).then(|| format!("Other axes at {}.", held.join(", "))),
     })

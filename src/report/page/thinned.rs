@@ -80,6 +80,7 @@ pub(super) fn of_page<'a>(
         peaks: outcome.peaks.iter().filter(is_shown).copied().collect(),
         peak_problems: outcome.peak_problems.clone(),
         interrupted: outcome.interrupted,
+        missing: outcome.missing,
     };
     Ok((Cow::Owned(thinned), table))
 }

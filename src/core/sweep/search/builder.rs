@@ -13,7 +13,7 @@ use crate::sweep::plan::adhesion::AdhesionPlan;
 use crate::sweep::plan::check::{PlanError, check_positive};
 use crate::sweep::plan::{Axes, Case, Method, SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
-use crate::sweep::search::run::{self, Options, Outcome, RunError};
+use crate::sweep::search::run::{self, Mode, Outcome, RunError};
 use crate::sweep::store::records::Records;
 
 /// A sweep under construction. Every method that takes a value checks it.
@@ -225,10 +225,9 @@ impl Sweep {
     /// but a record without a result.
     pub fn solve(self) -> Result<Outcome, SweepError> {
         let setup = Setup::new(self.plan)?.interrupted_by(Arc::clone(&self.interrupt));
-        let options = Options::on_threads(run::useful_threads(self.threads));
+        let mode = Mode::on_threads(run::useful_threads(self.threads));
         let records = Records::default();
-        let outcome = run::run_with(&setup, &records, &options, &self.interrupt, &());
-        Ok(outcome?)
+        Ok(run::run(&setup, &records, mode, &self.interrupt, &())?)
     }
 
     /// Solves the case at one frequency (Hz) under the drive itself, whatever frequencies and second axis were given.

@@ -8,7 +8,7 @@ use crate::sweep::plan::{Case, Condition};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::peak::{self, Loss, Peak, PeakError, Point};
 use crate::sweep::search::replica_peaks;
-use crate::sweep::search::run::Outcome;
+use crate::sweep::search::run::{Mode, Outcome};
 use crate::sweep::search::{Search, by_condition};
 use crate::sweep::store::StoreError;
 
@@ -101,16 +101,17 @@ impl Search<'_> {
         };
         let cases: Vec<Case> = omegas.iter().enumerate().map(case).collect();
         let aim = Aim::loss(bracket.resolution);
-        let records = self.records_of(aim, &cases, alone)?;
+        let mut records = self.records_of(aim, &cases, alone, &|_| ())?;
         if records.len() < omegas.len() {
-            return Err(match (self.checkpoint_every, self.archive.store) {
-                (None, Some(store)) => LocateError::NoRecords {
+            return Err(match (self.mode, self.archive.store) {
+                (Mode::Read, Some(store)) => LocateError::NoRecords {
                     angular_frequency_rad_per_s: bracket.points[1].0,
                     folder: store.folder().display().to_string(),
                 },
                 _ => LocateError::Interrupted,
             });
         }
+        records.sort_by_key(|record| record.index);
         let loss = |record: &CaseRecord| {
             let angular_frequency_rad_per_s = record.angular_frequency_rad_per_s;
             let loss_j = record.energy_loss_j().ok_or_else(|| PeakError::Case {

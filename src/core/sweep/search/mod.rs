@@ -19,7 +19,8 @@ use crate::sweep::case::{Aim, Setup};
 use crate::sweep::plan::{AxisValues, Case, Condition};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::locate::curve_of;
-use crate::sweep::search::run::{Options, Outcome, Progress, RunError};
+use crate::sweep::search::run::{Mode, Outcome, Progress};
+use crate::sweep::share::shard::{self, Shard};
 use crate::sweep::store::entry::Purpose;
 use crate::sweep::store::records::Kept;
 use crate::sweep::store::{Archive, StoreError};
@@ -29,9 +30,7 @@ pub(crate) struct Search<'a> {
     pub pool: ThreadPool,
     pub setup: &'a Setup,
     pub archive: Archive<'a>,
-    /// Time between two checkpoints of a case that takes long. `None`: nothing is solved, and cases without a usable record are left
-    /// out.
-    pub checkpoint_every: Option<Duration>,
+    pub mode: Mode,
     pub interrupt: &'a AtomicBool,
     pub progress: &'a dyn Progress,
     /// Where nothing is solved: whether it was said that records of another build are drawn.
@@ -41,62 +40,46 @@ pub(crate) struct Search<'a> {
 /// How often a neighbourhood may be halved before it is left as it is.
 const REFINEMENTS: usize = 6;
 
-impl<'a> Search<'a> {
-    /// Solves cases with these options, or none.
-    pub fn new(
-        setup: &'a Setup,
-        archive: Archive<'a>,
-        options: Option<&Options>,
-        (interrupt, progress): (&'a AtomicBool, &'a dyn Progress),
-    ) -> Result<Self, RunError> {
-        Ok(Self {
-            pool: run::pool(options.map_or(1, |options| options.threads))?,
-            setup,
-            archive,
-            checkpoint_every: options.map(|options| options.checkpoint_every),
-            interrupt,
-            progress,
-            told_of_builds: AtomicBool::new(false),
-        })
-    }
-
-    /// The records of cases of the sweep, and how many of these have none in the end.
-    pub fn planned(&self, cases: &[Case]) -> Result<(Vec<CaseRecord>, usize), StoreError> {
-        let (mut records, lacking) = self.known(Purpose::Sweep, cases)?;
-        if !records.is_empty() {
-            self.progress.cases_found(records.len(), cases.len());
-        }
-        records.extend(self.compute(Aim::PLAN, &lacking, false)?);
-        self.archive.records.sync()?;
-        // Each index is there once; a stable sort of many records takes half as much memory again.
-        records.sort_unstable_by_key(|r| r.index);
-        let missing = cases.len() - records.len();
-        Ok((records, missing))
-    }
-
-    /// What is left to do once the cases planned have records: refinement, order, peaks.
-    pub fn outcome(
-        &self,
-        mut records: Vec<CaseRecord>,
-        mut interrupted: bool,
-    ) -> Result<Outcome, RunError> {
+impl Search<'_> {
+    /// The cases of the sweep or of a shard of it; once all of the sweep have records, refinement and peaks too.
+    pub fn outcome(&self, shard: Option<Shard>) -> Result<Outcome, StoreError> {
         let plan = self.setup.plan();
-        if plan.refine && !interrupted {
+        let all = plan.cases();
+        let of_shard = shard.map(|shard| shard::cases(self.setup, shard));
+        let own = of_shard.as_deref().unwrap_or(&all);
+        let mut records = self.records_of(Aim::PLAN, own, false, &|found| {
+            if found > 0 && self.mode != Mode::Read {
+                self.progress.cases_found(found, own.len());
+            }
+        })?;
+        self.archive.records.sync()?;
+        let mut missing = own.len() - records.len();
+        let mut interrupted = missing > 0;
+        if of_shard.is_some() && !interrupted {
+            let (found, lacking) = self.known(Purpose::Sweep, &all)?;
+            missing = lacking.len();
+            if missing == 0 {
+                records = found;
+            }
+        }
+        if missing == 0 && plan.refine {
             interrupted = self.refine(&mut records)?;
         }
         sort(&mut records, plan.conditions());
         let mut outcome = Outcome {
-            interrupted,
             records,
+            missing,
+            interrupted,
             peaks: Vec::new(),
             peak_problems: Vec::new(),
         };
-        if !outcome.interrupted {
-            outcome.interrupted = !self.locate_peaks(&mut outcome)?;
+        if missing > 0 || interrupted {
+            return Ok(outcome);
         }
+        outcome.interrupted = !self.locate_peaks(&mut outcome)?;
         self.archive.records.sync()?;
         // Where nothing is solved, another process may be at work in the folder.
-        if self.checkpoint_every.is_some()
+        if self.mode != Mode::Read
             && !outcome.interrupted
             && let Some(store) = self.archive.store
         {
@@ -123,11 +106,10 @@ impl<'a> Search<'a> {
             if added.is_empty() {
                 break;
             }
-            let (found, lacking) = self.known(Purpose::Sweep, &added)?;
-            self.progress.cases_added(added.len(), found.len());
-            let more = self.compute(Aim::PLAN, &lacking, false)?;
-            let interrupted = more.len() < lacking.len();
-            records.extend(found);
+            let more = self.records_of(Aim::PLAN, &added, false, &|found| {
+                self.progress.cases_added(added.len(), found);
+            })?;
+            let interrupted = more.len() < added.len();
             records.extend(more);
             if interrupted {
                 return Ok(true);
@@ -137,16 +119,17 @@ impl<'a> Search<'a> {
     }
 
     /// The records of these cases, solved where there are none, by all threads or on this one alone: for what many threads do at
-    /// once. Fewer after an interruption.
+    /// once. Fewer after an interruption. `found` hears how many there are already.
     pub fn records_of(
         &self,
         aim: Aim,
         cases: &[Case],
         alone: bool,
+        found: &dyn Fn(usize),
     ) -> Result<Vec<CaseRecord>, StoreError> {
         let (mut records, lacking) = self.known(aim.purpose(), cases)?;
+        found(records.len());
         records.extend(self.compute(aim, &lacking, alone)?);
-        records.sort_by_key(|r| r.index);
         Ok(records)
     }
 
@@ -163,9 +146,9 @@ impl<'a> Search<'a> {
                 self.progress.notice(&format!("{path}: {}", unread.reason));
             }
         }
-        let then = match self.checkpoint_every {
-            Some(_) => "the case is computed again",
-            None => "the case is left out",
+        let then = match self.mode {
+            Mode::Solve { .. } => "the case is computed again",
+            Mode::Read => "the case is left out",
         };
         let (mut records, mut lacking) = (Vec::new(), Vec::new());
         for case in cases {
@@ -173,7 +156,7 @@ impl<'a> Search<'a> {
             let refusal = kept.refusal();
             match kept {
                 Kept::Intact(record) => records.push(*record),
-                Kept::OfAnotherBuild { record, .. } if self.checkpoint_every.is_none() => {
+                Kept::OfAnotherBuild { record, .. } if self.mode == Mode::Read => {
                     if let Some(refusal) = refusal
                         && !self.told_of_builds.swap(true, Ordering::Relaxed)
                     {
@@ -212,7 +195,10 @@ impl<'a> Search<'a> {
         cases: &[Case],
         alone: bool,
     ) -> Result<Vec<CaseRecord>, StoreError> {
-        let Some(checkpoint_every) = self.checkpoint_every else {
+        let Mode::Solve {
+            checkpoint_every, ..
+        } = self.mode
+        else {
             return Ok(Vec::new());
         };
         self.progress.solving();

@@ -14,8 +14,7 @@ use crate::sweep::plan::Condition;
 use crate::sweep::record::{BranchLoss, CaseRecord, Status};
 use crate::sweep::search::Search;
 use crate::sweep::search::peak::Peak;
-use crate::sweep::share::shard::{self, Shard};
-use crate::sweep::store::entry::Purpose;
+use crate::sweep::share::shard::Shard;
 use crate::sweep::store::{Archive, StoreError, checkpoint_file};
 
 /// Why a sweep stopped without an outcome.
@@ -31,8 +30,10 @@ pub enum RunError {
 /// What a sweep came to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
-    /// Finished cases, drive after drive, each in ascending frequency; fewer than planned only after an interruption.
+    /// Finished cases, drive after drive, each in ascending frequency; where `missing` is not 0, those of this run alone.
     pub records: Vec<CaseRecord>,
+    /// How many cases have no record: after an interruption of those of this run, else those of other shards.
+    pub missing: usize,
     /// Local maxima of the loss, largest first.
     pub peaks: Vec<Peak>,
     /// Peaks that are bracketed by the samples but could not be located, with the reason.
@@ -58,121 +59,65 @@ pub trait Progress: Sync {
 /// Hears of nothing.
 impl Progress for () {}
 
-/// How a sweep is run; none of it changes its results.
+/// Which cases of a sweep are solved, and how; none of it changes its results.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Options {
-    pub threads: usize,
-    /// Time between two checkpoints of a long case.
-    pub checkpoint_every: Duration,
+pub enum Mode {
+    /// Those without a usable record.
+    Solve {
+        threads: usize,
+        /// Time between two checkpoints of a long case.
+        checkpoint_every: Duration,
+        /// This part of the sweep alone, for a process that shares its folder with those of the others.
+        shard: Option<Shard>,
+    },
+    /// None: the outcome is what the records say.
+    Read,
 }
 
-impl Options {
-    /// On this many threads, all else as usual.
+impl Mode {
+    /// All cases on this many threads, all else as usual.
     pub fn on_threads(threads: usize) -> Self {
-        Self {
+        Self::Solve {
             threads,
             checkpoint_every: checkpoint_file::EVERY,
+            shard: None,
         }
     }
 }
 
-/// What a shard of a sweep came to.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Part {
-    /// The finished cases of this shard.
-    pub records: Vec<CaseRecord>,
-    /// How many cases of the whole sweep have no record in the folder yet.
-    pub missing: usize,
-    /// The whole sweep, where this shard's last case was the last of all.
-    pub whole: Option<Outcome>,
-    pub interrupted: bool,
-}
-
-/// Runs every case of the sweep that has no record yet on `threads` threads and stores each as it is finished.
+/// Runs the cases of the sweep, or of a shard of it, that have no record yet and stores each as it is finished. Once every case of
+/// the sweep has a record, the curve is refined and its peaks are located: by the shard whose last case was the last of all.
 ///
 /// The result does not depend on the number of threads: a case shares nothing that changes with another. `interrupt` stops
 /// the cases under way at their next time step.
 ///
 /// # Errors
-/// [`RunError`]: where a record cannot be written (the other threads then stop too) or threads cannot be started.
+/// [`RunError`]: where a record cannot be read or written (the other threads then stop too) or threads cannot be started.
 pub fn run<'a>(
     setup: &Setup,
     archive: impl Into<Archive<'a>>,
-    threads: usize,
-    interrupt: &AtomicBool,
-    progress: &dyn Progress,
-) -> Result<Outcome, RunError> {
-    let options = Options::on_threads(threads);
-    run_with(setup, archive, &options, interrupt, progress)
-}
-
-/// As [`run`], with options.
-///
-/// # Errors
-/// As [`run`].
-pub fn run_with<'a>(
-    setup: &Setup,
-    archive: impl Into<Archive<'a>>,
-    options: &Options,
+    mode: Mode,
     interrupt: &AtomicBool,
     progress: &dyn Progress,
 ) -> Result<Outcome, RunError> {
     let archive = archive.into();
-    archive.claim(true)?;
-    let search = Search::new(setup, archive, Some(options), (interrupt, progress))?;
-    let (records, missing) = search.planned(&setup.plan().cases())?;
-    search.outcome(records, missing > 0)
-}
-
-/// Runs one shard of the sweep; where its last case is the last of the whole sweep in this folder, peaks are located too.
-///
-/// # Errors
-/// As [`run`].
-pub fn run_shard<'a>(
-    setup: &Setup,
-    archive: impl Into<Archive<'a>>,
-    shard: Shard,
-    options: &Options,
-    interrupt: &AtomicBool,
-    progress: &dyn Progress,
-) -> Result<Part, RunError> {
-    let archive = archive.into();
-    archive.claim(false)?;
-    let search = Search::new(setup, archive, Some(options), (interrupt, progress))?;
-    let own = shard::cases(setup, shard);
-    let (records, missing) = search.planned(&own)?;
-    if missing > 0 {
-        return Ok(Part {
-            records,
-            missing,
-            whole: None,
-            interrupted: true,
-        });
-    }
-    let (all, lacking) = search.known(Purpose::Sweep, &setup.plan().cases())?;
-    let whole = (lacking.is_empty()).then(|| search.outcome(all, false));
-    let whole = whole.transpose()?;
-    Ok(Part {
-        records,
-        missing: lacking.len(),
-        interrupted: whole.as_ref().is_some_and(|whole| whole.interrupted),
-        whole,
-    })
-}
-
-/// What the records of a folder say, without solving anything; cases without a record are missing in the outcome.
-///
-/// # Errors
-/// [`RunError`] where a record cannot be read.
-pub fn collect<'a>(
-    setup: &Setup,
-    archive: impl Into<Archive<'a>>,
-    progress: &dyn Progress,
-) -> Result<Outcome, RunError> {
-    let interrupt = AtomicBool::new(false);
-    let search = Search::new(setup, archive.into(), None, (&interrupt, progress))?;
-    let (records, missing) = search.known(Purpose::Sweep, &setup.plan().cases())?;
-    search.outcome(records, !missing.is_empty())
+    let (threads, shard) = match mode {
+        Mode::Solve { threads, shard, .. } => {
+            archive.claim(shard.is_none())?;
+            (threads, shard)
+        }
+        Mode::Read => (1, None),
+    };
+    let search = Search {
+        pool: pool(threads)?,
+        setup,
+        archive,
+        mode,
+        interrupt,
+        progress,
+        told_of_builds: AtomicBool::new(false),
+    };
+    Ok(search.outcome(shard)?)
 }
 
 /// Threads for every processor at most. More than one gains nothing, and each takes memory; a few do no harm.

@@ -485,7 +485,7 @@ mod tests {
     use crate::sweep::plan::resolved::resolved_text;
     use crate::sweep::plan::{self, Method};
     use crate::sweep::record::Status;
-    use crate::sweep::search::run;
+    use crate::sweep::search::run::{self, Mode};
 
     const PLAN: &str = "title = \"a\"\n";
 
@@ -774,24 +774,30 @@ mod tests {
         let sweep = sweep.frequencies_hz([1e-4, 1e-3, 1e-2]).unwrap();
         let setup = Setup::new(sweep.into_plan()).unwrap();
         let archive = Records::default();
-        run::run(&setup, &archive, 1, &false.into(), &()).unwrap();
+        run::run(&setup, &archive, Mode::on_threads(1), &false.into(), &()).unwrap();
         (setup, archive)
     }
 
     #[test]
     fn records_that_were_moved_give_the_same_outcome_with_its_cycles_and_peaks() {
         let (setup, archive) = solved();
-        let outcome = run::collect(&setup, &archive, &()).unwrap();
+        let outcome = run::run(&setup, &archive, Mode::Read, &false.into(), &()).unwrap();
         assert!(outcome.records.iter().all(|r| r.result.is_some()));
         let moved = Records::from_bytes(&archive.to_bytes()).unwrap();
-        assert_eq!(run::collect(&setup, &moved, &()).unwrap(), outcome);
+        assert_eq!(
+            run::run(&setup, &moved, Mode::Read, &false.into(), &()).unwrap(),
+            outcome
+        );
 
         let folder = tempfile::TempDir::new().unwrap();
         let store = Store::open(folder.path(), &resolved_text(setup.plan()), false).unwrap();
         // The second time there is nothing left to do.
         for _ in 0..2 {
             archive.put_into(&store).unwrap();
-            assert_eq!(run::collect(&setup, &store, &()).unwrap(), outcome);
+            assert_eq!(
+                run::run(&setup, &store, Mode::Read, &false.into(), &()).unwrap(),
+                outcome
+            );
         }
         let records = folder.path().join("records");
         let length =
