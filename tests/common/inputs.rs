@@ -438,7 +438,7 @@ pub struct CheckpointFiles {
 }
 
 /// Bytes by which a checkpoint says what it is and what it belongs to.
-const CHECKPOINT_HEAD: usize = 40;
+const CHECKPOINT_HEAD: usize = 32;
 
 impl CheckpointFiles {
     /// `method` is "direct" or "march".

@@ -1,11 +1,10 @@
 //! The file of a checkpoint, whatever it holds, and when one is written.
 //!
-//! Eight bytes of mark, 32 bytes that say what it belongs to (a SHA-256), the content as postcard encodes it, and the SHA-256 of all
-//! that.
+//! 32 bytes that say what it belongs to (a SHA-256), the content as postcard encodes it, and the SHA-256 of all that.
 
 use std::cell::Cell;
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -28,7 +27,6 @@ const WORTH_KEEPING: Duration = Duration::from_secs(1);
 /// One over the part of the time that writing takes at most, unless every moment is to be kept.
 const SHARE: u32 = 20;
 
-const MARK: &[u8; 8] = b"CDMACHK\x02";
 const HASH_BYTES: usize = 32;
 
 /// Says when to write, by the time that has passed on a clock that never jumps.
@@ -135,45 +133,31 @@ impl CheckpointFile {
     }
 }
 
-/// A file and the SHA-256 of what has been written to it.
-struct Hashing<W> {
-    file: W,
-    hash: Sha256,
-}
-
-impl<W: Write> Write for Hashing<W> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let written = self.file.write(bytes)?;
-        self.hash.update(&bytes[..written]);
-        Ok(written)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.file.flush()
-    }
-}
-
 impl Owner {
     /// The content may fill much of the memory: it is written as it is encoded, and no copy of it is made.
-    fn encode(&self, content: &impl Serialize, file: impl Write) -> io::Result<()> {
-        let mut file = io::BufWriter::new(Hashing {
-            file,
-            hash: Sha256::new(),
-        });
-        file.write_all(MARK)?;
-        file.write_all(&self.0)?;
-        postcard::to_io(content, &mut file).map_err(io::Error::other)?;
-        let Hashing { mut file, hash } = file.into_inner().map_err(io::Error::from)?;
+    fn encode(
+        &self,
+        content: &impl Serialize,
+        mut file: impl Read + Write + Seek,
+    ) -> io::Result<()> {
+        let mut buffered = io::BufWriter::new(&mut file);
+        buffered.write_all(&self.0)?;
+        postcard::to_io(content, &mut buffered).map_err(io::Error::other)?;
+        buffered.flush()?;
+        drop(buffered);
+        file.rewind()?;
+        let mut hash = Sha256::new();
+        io::copy(&mut file, &mut hash)?;
         file.write_all(&hash.finalize())
     }
 
     fn decode<T: DeserializeOwned>(&self, bytes: &[u8]) -> Result<T, Unusable> {
-        let whole = || {
-            let (content, hash) = bytes.split_at_checked(bytes.len().checked_sub(HASH_BYTES)?)?;
-            let is_whole = Sha256::digest(content).as_slice() == hash;
-            content.strip_prefix(MARK).filter(|_| is_whole)
-        };
-        let content = whole().ok_or(Unusable::Damaged)?;
+        let (content, hash) = bytes
+            .split_last_chunk::<HASH_BYTES>()
+            .ok_or(Unusable::Damaged)?;
+        if Sha256::digest(content).as_slice() != hash {
+            return Err(Unusable::Damaged);
+        }
         let content = content.strip_prefix(&self.0).ok_or(Unusable::Foreign)?;
         match postcard::take_from_bytes(content) {
             Ok((content, [])) => Ok(content),
@@ -193,9 +177,9 @@ mod tests {
     }
 
     fn encoded(byte: u8, content: &impl Serialize) -> Vec<u8> {
-        let mut bytes = Vec::new();
+        let mut bytes = io::Cursor::new(Vec::new());
         owner(byte).encode(content, &mut bytes).unwrap();
-        bytes
+        bytes.into_inner()
     }
 
     #[test]

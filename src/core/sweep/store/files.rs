@@ -53,8 +53,7 @@ const TABLES: [&str; 10] = [
 ];
 
 /// Folders with files by number: of cases, and of instants asked for.
-pub(super) const NUMBERED: [&str; 6] =
-    ["loops", "pressures", "work", "cycles", "profiles", "fields"];
+const NUMBERED: [&str; 6] = ["loops", "pressures", "work", "cycles", "profiles", "fields"];
 
 /// The height map of a result that was saved from arrays: its plan names it.
 pub const HEIGHT_MAP: &str = "height-map.npy";
@@ -78,13 +77,9 @@ pub(super) fn is_run_of_shard(name: &str) -> bool {
 
 /// Whether a folder within the folder of a result has files of it.
 pub(super) fn is_folder_of_results(name: &str) -> bool {
-    match name.split_once('/') {
-        None => {
-            NUMBERED.contains(&name)
-                || [records::FOLDER, checkpoint_file::FOLDER, "peaks"].contains(&name)
-        }
-        Some((folder, _)) => folder == checkpoint_file::FOLDER,
-    }
+    let (folder, below) = name.split_once('/').unwrap_or((name, ""));
+    let has_files = NUMBERED.contains(&folder) || folder == records::FOLDER;
+    folder == checkpoint_file::FOLDER || has_files && below.is_empty()
 }
 
 /// Whether a result may have a file of this name.
@@ -92,24 +87,25 @@ pub fn is_result(name: &str) -> bool {
     let Some((folder, file)) = name.split_once('/') else {
         return TABLES.contains(&name) || is_run_of_shard(name) || is_of_figure(name);
     };
-    let is_numbered = file.starts_with(|c: char| c.is_ascii_digit()) || file == "index.csv";
     match folder {
-        checkpoint_file::FOLDER => {
-            file == "history" || file.ends_with(".finished") || file.ends_with(".cycle")
+        checkpoint_file::FOLDER => file == "history" || file.ends_with(".finished"),
+        records::FOLDER => file.ends_with(".segment"),
+        folder => {
+            let is_numbered = file.starts_with(|c: char| c.is_ascii_digit()) || file == "index.csv";
+            NUMBERED.contains(&folder) && is_numbered
         }
-        records::FOLDER => file.ends_with(".segment") || is_numbered && file.ends_with(".json"),
-        "peaks" => file.ends_with(".json"),
-        folder => NUMBERED.contains(&folder) && is_numbered,
     }
 }
 
 /// Whether a file is made anew of records and plan whenever tables and figures are.
 pub(super) fn is_drawn_again(name: &str) -> bool {
-    let is_state = [records::FOLDER, checkpoint_file::FOLDER]
-        .iter()
-        .any(|folder| {
-            name.strip_prefix(folder)
-                .is_some_and(|rest| rest.starts_with('/'))
-        });
-    !is_state && ![RUN, RESOLVED, HEIGHT_MAP].contains(&name) && !is_run_of_shard(name)
+    let first = name.split('/').next().unwrap_or_default();
+    let kept = [
+        records::FOLDER,
+        checkpoint_file::FOLDER,
+        RUN,
+        RESOLVED,
+        HEIGHT_MAP,
+    ];
+    !kept.contains(&first) && !is_run_of_shard(name)
 }

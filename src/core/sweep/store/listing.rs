@@ -166,10 +166,15 @@ pub(super) fn look(folder: &Path, resolved: Option<&str>) -> Result<Found, Store
     let Some(first) = names.iter().find(|name| !name.starts_with(PRIVATE)) else {
         return Ok(Found::Nothing);
     };
-    match is_of_program || has_plan(folder, resolved) {
-        true => Ok(Found::Listed(unlisted(folder))),
-        false => Ok(Found::Foreign(first.clone())),
+    if !is_of_program && !has_plan(folder, resolved) {
+        return Ok(Found::Foreign(first.clone()));
     }
+    // Without a list, which somebody has removed, the files are known by their names.
+    let plan = fs::read_to_string(folder.join(RESOLVED)).ok();
+    Ok(Found::Listed(Listed {
+        kind: plan.map(|plan| Kind::of_plan(&plan)).or(listed.kind),
+        files: named_like_results(folder),
+    }))
 }
 
 /// What the program has written into a folder; `None` where it has written nothing there.
@@ -239,21 +244,6 @@ fn has_plan(folder: &Path, resolved: Option<&str>) -> bool {
 /// Whether there are whole records of a plan.
 pub(super) fn has_records(folder: &Path, resolved: &str) -> bool {
     !Records::in_folder(folder, &hash(resolved), false).is_empty()
-}
-
-/// The files of a version that wrote no list, by their names.
-fn unlisted(folder: &Path) -> Listed {
-    let has = |name: &str| folder.join(name).exists();
-    let kind = match fs::read(folder.join(RESOLVED)) {
-        Ok(plan) => Kind::of_plan(&String::from_utf8_lossy(&plan)),
-        Err(_) if has("analysis.json") => Kind::Analysis,
-        Err(_) if has("material.toml") => Kind::MaterialFit,
-        Err(_) => Kind::Sweep,
-    };
-    Listed {
-        kind: Some(kind),
-        files: named_like_results(folder),
-    }
 }
 
 /// The files in a folder that have names of results, whoever wrote them.

@@ -6,8 +6,7 @@
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use super::{StoreError, create_folder, provenance};
@@ -32,22 +31,24 @@ pub struct LogWriter {
     disk: Arc<Disk>,
 }
 
-/// A file, and what of it is on the disk.
+/// A file, and whether something of it is not on the disk yet.
 #[derive(Debug)]
 struct Disk {
     file: File,
-    written: AtomicU64,
-    synced: AtomicU64,
-    /// Whether a thread is about to bring it there.
-    awaited: AtomicBool,
+    unsynced: Mutex<bool>,
 }
 
 impl Disk {
+    fn unsynced(&self) -> MutexGuard<'_, bool> {
+        self.unsynced.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     fn sync(&self) -> io::Result<()> {
-        self.awaited.store(false, Ordering::SeqCst);
-        let written = self.written.load(Ordering::SeqCst);
-        self.file.sync_data()?;
-        self.synced.fetch_max(written, Ordering::SeqCst);
+        let mut unsynced = self.unsynced();
+        if *unsynced {
+            self.file.sync_data()?;
+            *unsynced = false;
+        }
         Ok(())
     }
 }
@@ -93,9 +94,7 @@ impl LogWriter {
             length: 0,
             disk: Arc::new(Disk {
                 file,
-                written: AtomicU64::new(0),
-                synced: AtomicU64::new(0),
-                awaited: AtomicBool::new(false),
+                unsynced: Mutex::default(),
             }),
         }
     }
@@ -117,25 +116,17 @@ impl LogWriter {
             return Err(error);
         }
         self.length += framed.len() as u64;
-        self.disk.written.store(self.length, Ordering::SeqCst);
-        self.sync_soon()
-    }
-
-    /// Brings what was appended to the disk within a second, be the next record hours away.
-    fn sync_soon(&self) -> io::Result<()> {
-        if self.disk.awaited.swap(true, Ordering::SeqCst) {
+        if std::mem::replace(&mut *self.disk.unsynced(), true) {
             return Ok(());
         }
+        // Within a second, be the next record hours away.
         let disk = Arc::clone(&self.disk);
         let timer = std::thread::Builder::new().spawn(move || {
             std::thread::sleep(SYNC);
-            // Where it fails, the bytes stay behind what is synced, and `finish` fails too.
+            // Where it fails, `finish` fails too.
             let _ = disk.sync();
         });
-        match timer {
-            Ok(_) => Ok(()),
-            Err(_) => self.disk.sync(),
-        }
+        timer.map(drop).or_else(|_| self.disk.sync())
     }
 
     /// Brings all that was appended to the disk, where it is not there yet.
@@ -143,10 +134,7 @@ impl LogWriter {
     /// # Errors
     /// Of the file system, of a disk that turns out to be full for one.
     pub fn finish(&self) -> io::Result<()> {
-        match self.disk.synced.load(Ordering::SeqCst) < self.length {
-            true => self.disk.sync(),
-            false => Ok(()),
-        }
+        self.disk.sync()
     }
 
     /// Where the file ends.
@@ -380,10 +368,9 @@ mod tests {
         writer.append(&framed(b"first").unwrap()).unwrap();
         writer.append(&framed(b"second").unwrap()).unwrap();
         let begun = std::time::Instant::now();
-        let synced = || writer.disk.synced.load(Ordering::SeqCst);
-        while synced() < writer.length() {
+        while *writer.disk.unsynced() {
             // A disk may be slow.
-            assert!(begun.elapsed() < 20 * SYNC, "{} bytes", synced());
+            assert!(begun.elapsed() < 20 * SYNC);
             std::thread::sleep(SYNC / 20);
         }
     }

@@ -341,13 +341,9 @@ impl Manifest {
                 }
                 _ => {}
             }
-            let parents = Path::new(name).ancestors().skip(1);
-            folders.extend(
-                parents
-                    .filter(|parent| *parent != Path::new(""))
-                    .map(Path::to_path_buf),
-            );
+            folders.extend(Path::new(name).ancestors().skip(1));
         }
+        folders.remove(Path::new(""));
         // Those within others first; what holds a file of somebody else stays.
         for folder in folders.iter().rev() {
             let _ = fs::remove_dir(self.folder.join(folder));
@@ -357,27 +353,24 @@ impl Manifest {
 
     /// Removes what killed processes of this machine have left half-written; for the one that holds the lock alone.
     pub(super) fn remove_temporaries(&self) {
-        let mut folders: BTreeSet<PathBuf> = files::NUMBERED.map(PathBuf::from).into();
-        folders.insert(PathBuf::new());
         let state = self.state();
+        // A file is listed before its temporary one is made.
         let parents = state
             .listed
             .iter()
             .filter_map(|name| Path::new(name).parent());
-        folders.extend(parents.map(Path::to_path_buf));
-        for folder in folders {
-            let Ok(entries) = fs::read_dir(self.folder.join(folder)) else {
-                continue;
-            };
-            for entry in entries.flatten() {
-                if entry
-                    .file_name()
-                    .to_string_lossy()
-                    .starts_with(TEMPORARY.as_str())
-                {
-                    // Gone already, or not ours to remove: no reason to stop.
-                    let _ = fs::remove_file(entry.path());
-                }
+        let folders: BTreeSet<&Path> = parents.chain([Path::new("")]).collect();
+        let entries = folders
+            .iter()
+            .flat_map(|folder| fs::read_dir(self.folder.join(folder)));
+        for entry in entries.flatten().flatten() {
+            if entry
+                .file_name()
+                .to_string_lossy()
+                .starts_with(TEMPORARY.as_str())
+            {
+                // Gone already, or not ours to remove: no reason to stop.
+                let _ = fs::remove_file(entry.path());
             }
         }
     }

@@ -42,14 +42,12 @@ use crate::sweep::store::records::Records;
 pub struct Store {
     pub(crate) folder: PathBuf,
     pub(crate) sweep_hash: String,
-    /// The resolved file as it was when the folder was opened.
-    pub(crate) resolved: Arc<str>,
     manifest: Arc<Manifest>,
     records: Arc<Records>,
     /// Of a process that computes: see [`Self::claim`].
     claim: Arc<OnceLock<FolderLock>>,
-    /// The resolved file as it was last found to be of this sweep.
-    pub(crate) checked: Arc<Mutex<Option<FileVersion>>>,
+    /// When the resolved file was written that was last found to be of this sweep, and its length.
+    checked: Arc<Mutex<Option<(SystemTime, u64)>>>,
 }
 
 /// Where the records of a sweep are: in its folder, or in memory.
@@ -81,31 +79,6 @@ impl<'a> From<&'a Records> for Archive<'a> {
             records,
             store: None,
         }
-    }
-}
-
-/// What differs between a file and any that has taken its place: when it was written, its length, and where the file system has
-/// such numbers, its own.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct FileVersion {
-    modified: Option<SystemTime>,
-    length: u64,
-    number: u64,
-}
-
-impl FileVersion {
-    /// `None` of a file that cannot be found.
-    fn of(path: &Path) -> Option<Self> {
-        let found = fs::metadata(path).ok()?;
-        #[cfg(unix)]
-        let number = std::os::unix::fs::MetadataExt::ino(&found);
-        #[cfg(not(unix))]
-        let number = 0;
-        Some(Self {
-            modified: found.modified().ok(),
-            length: found.len(),
-            number,
-        })
     }
 }
 
@@ -217,7 +190,6 @@ impl Store {
             records: Arc::new(Records::in_folder(folder, &sweep_hash, false)),
             claim: Arc::default(),
             sweep_hash,
-            resolved: resolved.into(),
             checked: Arc::default(),
             manifest: Arc::new(manifest),
         }
@@ -225,54 +197,52 @@ impl Store {
 
     /// Replaces another sweep's plan and results, where there are any.
     fn replace(&self, resolved: &str, is_other_kind: bool) -> Result<(), StoreError> {
+        let is_other = match self.plan()? {
+            Some(existing) => {
+                !is_same(&existing, resolved) && !self.is_damaged(&existing, resolved)
+            }
+            None => is_other_kind,
+        };
+        if is_other {
+            // Killed between the two, it leaves the plan of what is gone, never results of another.
+            self.manifest.begin()?;
+            self.manifest.clear()?;
+            self.manifest.record(RESOLVED)?;
+            write_atomically(&self.folder.join(RESOLVED), resolved.as_bytes())?;
+        }
+        Ok(())
+    }
+
+    /// The resolved file as it is, damaged or not.
+    fn plan(&self) -> Result<Option<String>, StoreError> {
         let path = self.folder.join(RESOLVED);
         match fs::read(&path) {
-            Ok(existing)
-                if is_same(&existing, resolved) || self.is_damaged(&existing, resolved) =>
-            {
-                Ok(())
-            }
-            Err(error) if error.kind() == io::ErrorKind::NotFound && !is_other_kind => Ok(()),
-            Err(source) if source.kind() != io::ErrorKind::NotFound => {
-                Err(StoreError::Read { path, source })
-            }
-            _ => {
-                // Killed between the two, it leaves the plan of what is gone, never results of another.
-                self.manifest.begin()?;
-                self.manifest.clear()?;
-                self.manifest.record(RESOLVED)?;
-                write_atomically(&path, resolved.as_bytes())
-            }
+            Ok(bytes) => Ok(Some(String::from_utf8_lossy(&bytes).into_owned())),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(source) => Err(StoreError::Read { path, source }),
         }
     }
 
     /// Whether a plan is none, but was that of this sweep, of which there are records.
-    fn is_damaged(&self, existing: &[u8], resolved: &str) -> bool {
-        let existing = String::from_utf8_lossy(existing);
+    fn is_damaged(&self, existing: &str, resolved: &str) -> bool {
         listing::has_records(&self.folder, resolved)
-            && !listing::has_records(&self.folder, &existing)
+            && !listing::has_records(&self.folder, existing)
     }
 
     /// Makes this sweep the plan of the folder, unless it is, or another one is.
     fn publish(&self, resolved: &str) -> Result<(), StoreError> {
         let path = self.folder.join(RESOLVED);
-        if !path.exists() {
+        if self.plan()?.is_none() {
             self.manifest.begin()?;
             self.manifest.record(RESOLVED)?;
-            if create_atomically(&path, resolved.as_bytes())? {
-                return Ok(());
-            }
+            create_atomically(&path, resolved.as_bytes())?;
         }
-        let existing = fs::read(&path).map_err(|source| StoreError::Read {
-            path: path.clone(),
-            source,
-        })?;
+        let existing = self.plan()?.unwrap_or_default();
         if !is_same(&existing, resolved) {
             let lock = &self.manifest.lock;
             lock.release();
             let at_work = lock.try_exclusive() == Others::AtWork;
             if at_work || !self.is_damaged(&existing, resolved) {
-                let existing = String::from_utf8_lossy(&existing);
                 let (existing, resolved) = (identity(&existing), identity(resolved));
                 return Err(StoreError::OtherSweep {
                     path: self.folder.clone(),
@@ -284,7 +254,7 @@ impl Store {
             lock.share();
         }
         self.manifest.begin()?;
-        match existing == resolved.as_bytes() {
+        match existing == resolved {
             true => Ok(()),
             // The same sweep, whose figures are to look otherwise or whose data lie elsewhere.
             false => self.write(RESOLVED, resolved.as_bytes()),
@@ -356,14 +326,16 @@ impl Store {
     /// Whether the folder is of this sweep still. The plan is read again only where its file is another one than was last read.
     pub(crate) fn check_plan(&self) -> Result<(), StoreError> {
         // What takes the file's place after this is seen at the next look.
-        let found = FileVersion::of(&self.folder.join(RESOLVED));
+        let found = fs::metadata(self.folder.join(RESOLVED));
+        let found = found
+            .and_then(|file| Ok((file.modified()?, file.len())))
+            .ok();
         let mut checked = self.checked.lock().unwrap_or_else(PoisonError::into_inner);
         if found.is_some() && *checked == found {
             return Ok(());
         }
         match read_plan(&self.folder) {
-            // Most often it is as it was, which is sooner seen than hashed; the sweep is the same with other figures too.
-            Ok(resolved) if *resolved == *self.resolved || hash(&resolved) == self.sweep_hash => {
+            Ok(resolved) if hash(&resolved) == self.sweep_hash => {
                 *checked = found;
                 Ok(())
             }
@@ -411,8 +383,8 @@ fn in_use(folder: &Path) -> StoreError {
 }
 
 /// Whether a folder's resolved file is of the same sweep, however its figures look and wherever its data lie.
-fn is_same(existing: &[u8], resolved: &str) -> bool {
-    std::str::from_utf8(existing).is_ok_and(|existing| identity(existing) == identity(resolved))
+fn is_same(existing: &str, resolved: &str) -> bool {
+    identity(existing) == identity(resolved)
 }
 
 /// The resolved sweep of a folder.
@@ -435,15 +407,14 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     rename(temporary(path, |file| file.write_all(bytes))?, path)
 }
 
-/// The same, unless there is a file of that name: of several that try at once one does. Says whether it did.
-fn create_atomically(path: &Path, bytes: &[u8]) -> Result<bool, StoreError> {
+/// The same, unless there is a file of that name: of several that try at once one does.
+fn create_atomically(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     let file = temporary(path, |file| file.write_all(bytes))?;
     match file.persist_noclobber(path) {
-        Ok(_) => Ok(true),
-        Err(_) if path.exists() => Ok(false),
         // A file system with neither renames that replace nothing nor hard links: of two that begin there within this moment, the
         // one that is replaced finds so at its next write.
-        Err(_) => write_atomically(path, bytes).map(|()| true),
+        Err(_) if !path.exists() => write_atomically(path, bytes),
+        _ => Ok(()),
     }
 }
 
@@ -560,8 +531,8 @@ mod tests {
     fn a_name_is_taken_once() {
         let folder = tempfile::TempDir::new().unwrap();
         let path = folder.path().join(RESOLVED);
-        assert!(create_atomically(&path, PLAN.as_bytes()).unwrap());
-        assert!(!create_atomically(&path, OTHER.as_bytes()).unwrap());
+        create_atomically(&path, PLAN.as_bytes()).unwrap();
+        create_atomically(&path, OTHER.as_bytes()).unwrap();
         assert_eq!(read_plan(folder.path()).unwrap(), PLAN);
     }
 }

@@ -383,7 +383,7 @@ impl State {
 
     /// Reads what is new in the folder; nothing in memory.
     fn look(&mut self) -> Result<(), StoreError> {
-        let first = !std::mem::replace(&mut self.has_looked, true);
+        self.has_looked = true;
         let Home::Folder(folder) = &self.home else {
             return Ok(());
         };
@@ -399,13 +399,8 @@ impl State {
         let mut paths = Vec::new();
         for entry in entries {
             let path = entry.map_err(failed(&folder))?.path();
-            match path.extension().and_then(|ending| ending.to_str()) {
-                Some(log::ENDING) => paths.push(path),
-                Some("json") if first => self.unread.push(Unread {
-                    path,
-                    reason: "a record of an earlier version of the program, which kept one file per case: it is not used".to_owned(),
-                }),
-                _ => {}
+            if path.extension().is_some_and(|ending| ending == log::ENDING) {
+                paths.push(path);
             }
         }
         // Whatever the order in which a system lists them.
@@ -759,9 +754,6 @@ mod tests {
             .load(Purpose::Sweep, &case, false)
             .unwrap();
         assert!(matches!(kept, Kept::Intact(_)));
-        std::fs::write(newer.path().join("records/0000.json"), "{}").unwrap();
-        let unread = open(&newer).records().look().unwrap();
-        assert!(unread[0].reason.contains("earlier version"), "{unread:?}");
     }
 
     /// A sweep with a peak, and its records.
