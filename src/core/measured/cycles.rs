@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::Signal;
 use super::corrections::Corrections;
-use super::drift::{self, Drift, Span};
-use super::least_squares::Normal;
+use super::drift::{Drift, DriftModel};
+use super::frequency::RecordModel;
 use crate::cycle::Harmonics;
 
 /// One cycle as measured, drift taken off.
@@ -78,7 +78,7 @@ impl Cut {
     pub(super) fn fitted(
         &self,
         signal: &Signal,
-        of_model: (f64, usize),
+        model: &RecordModel,
         drifts: &[Drift; 2],
         corrections: &Corrections,
     ) -> (Vec<Cycle>, Vec<usize>) {
@@ -87,10 +87,10 @@ impl Cut {
             // In ascending order: a record of which most is missing has as many of them as cycles.
             let is_whole = self.incomplete.binary_search(&number).is_err();
             let whole = is_whole.then(|| range.clone());
-            match whole.and_then(|range| fit(signal, range, of_model, drifts)) {
+            match whole.and_then(|range| fit(signal, range, model, drifts)) {
                 Some(cycle) => cycles.push(Cycle {
                     number,
-                    corrected: corrections.applied(of_model.0, &cycle.raw),
+                    corrected: corrections.applied(model.angular, &cycle.raw),
                     ..cycle
                 }),
                 None => incomplete.push(number),
@@ -104,42 +104,27 @@ impl Cut {
 fn fit(
     signal: &Signal,
     range: std::ops::Range<usize>,
-    of_model: (f64, usize),
+    model: &RecordModel,
     drifts: &[Drift; 2],
 ) -> Option<Cycle> {
-    let span = Span::of(signal);
     let times = signal.time_s.get(range.clone())?;
-    let columns = 1 + 2 * of_model.1;
-    if times.len() < columns {
-        return None;
-    }
-    let design = drift::design(times, &span, of_model, &[]);
-    let normal = Normal::new(&(&design * design.transpose()), (0..columns).collect())?;
-    let solved = |values: &[f64], drift: &Drift| {
-        let own = values.get(range.clone()).unwrap_or_default().iter();
-        let flat = own.zip(times).map(|(value, time)| value - drift.at(*time));
-        normal.solve(&(&design * DVector::from_iterator(times.len(), flat)))
+    let fitted = |values: &[f64], drift: &Drift| {
+        let own = values.get(range.clone())?.iter().zip(times);
+        let flat: Vec<f64> = own.map(|(value, time)| value - drift.at(*time)).collect();
+        Some(model.fit(times, &flat, DriftModel::None)?.coefficients)
     };
-    let load = solved(&signal.load_n, &drifts[0]);
-    let approach = solved(&signal.approach_m, &drifts[1]);
-    let middle_s = 0.5 * (times[0] + times[times.len() - 1]);
+    let load = fitted(&signal.load_n, &drifts[0])?;
+    let approach = fitted(&signal.approach_m, &drifts[1])?;
+    let (first, last) = (times.first()?, times.last()?);
+    let middle_s = 0.5 * (first + last);
     let radii = signal.contact_radius_m.as_ref();
-    let radii = radii.and_then(|radii| radii.get(range.clone()));
-    let known = radii
-        .into_iter()
-        .flatten()
-        .copied()
-        .filter(|r| r.is_finite());
+    let radii = radii.and_then(|radii| radii.get(range.clone())).into_iter();
+    let known = radii.flatten().copied().filter(|r| r.is_finite());
     Some(Cycle {
         number: 0,
-        start_s: times[0] - span.first_s,
+        start_s: first - model.span.first_s,
         samples: times.len(),
-        raw: Harmonics {
-            load_mean_n: load[0],
-            approach_mean_m: approach[0],
-            load_n: complex(&load),
-            approach_m: complex(&approach),
-        },
+        raw: of_coefficients(&[load, approach]),
         corrected: Harmonics::default(),
         load_drift_n: drifts[0].at(middle_s),
         approach_drift_m: drifts[1].at(middle_s),
@@ -147,16 +132,35 @@ fn fit(
     })
 }
 
-/// Coefficients of sine and cosine, pair by pair behind the mean, as harmonics |a| sin(n omega t + arg a).
-fn complex(coefficients: &DVector<f64>) -> Vec<Complex<f64>> {
-    let pairs = coefficients.as_slice()[1..].chunks_exact(2);
-    pairs.map(|pair| Complex::new(pair[0], pair[1])).collect()
+/// A cycle from the coefficients of load and approach: mean, then sine and cosine of every harmonic |a| sin(n omega t + arg a).
+pub(super) fn of_coefficients([load, approach]: &[DVector<f64>; 2]) -> Harmonics {
+    let harmonics = |coefficients: &DVector<f64>| {
+        let pairs = coefficients.as_slice()[1..].chunks_exact(2);
+        pairs.map(|pair| Complex::new(pair[0], pair[1])).collect()
+    };
+    Harmonics {
+        load_mean_n: load[0],
+        approach_mean_m: approach[0],
+        load_n: harmonics(load),
+        approach_m: harmonics(approach),
+    }
+}
+
+/// The coefficients of load and approach of a cycle.
+pub(super) fn coefficients(cycle: &Harmonics) -> [DVector<f64>; 2] {
+    let signal = |mean: f64, harmonics: &[Complex<f64>]| {
+        let pairs = harmonics.iter().flat_map(|a| [a.re, a.im]);
+        DVector::from_vec(std::iter::once(mean).chain(pairs).collect())
+    };
+    [
+        signal(cycle.load_mean_n, &cycle.load_n),
+        signal(cycle.approach_mean_m, &cycle.approach_m),
+    ]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measured::drift::DriftModel;
     use std::f64::consts::TAU;
 
     fn record(samples: usize, interval_s: f64) -> Signal {
@@ -191,10 +195,10 @@ mod tests {
     #[test]
     fn harmonics_of_a_cycle_have_their_phases_from_the_first_sample() {
         let signal = record(60, 0.05);
-        let span = Span::of(&signal);
-        let none = || Drift::new(DriftModel::None, &[], span);
+        let model = RecordModel::with_parabolas(&signal, TAU, 3);
+        let none = || Drift::new(DriftModel::None, &[], model.span);
         for range in [0..20, 20..40] {
-            let cycle = fit(&signal, range, (TAU, 3), &[none(), none()]).unwrap();
+            let cycle = fit(&signal, range, &model, &[none(), none()]).unwrap();
             let first = cycle.raw.load_n[0];
             // Rounding of times near 5 s.
             assert!((first.norm() - 1.0).abs() < 1e-11 && (first.arg() - 0.3).abs() < 1e-11);

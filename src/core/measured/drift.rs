@@ -1,11 +1,11 @@
 //! What moves a signal besides its oscillation: thermal drift, creep towards a mean. A polynomial or an exponential, whichever the
 //! data speak for.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use super::Signal;
-use super::least_squares::{Normal, harmonic_columns};
+use super::frequency::{Fit, RecordModel};
 use super::noise::correlation;
 use crate::numerics::grid;
 
@@ -99,7 +99,7 @@ impl DriftModel {
     }
 
     /// Its columns at a time.
-    fn fill(self, row: &mut [f64], span: &Span, time_s: f64) {
+    pub(super) fn fill(self, row: &mut [f64], span: &Span, time_s: f64) {
         let since_s = time_s - span.first_s;
         let u = 2.0 * since_s / span.duration_s() - 1.0;
         match self {
@@ -136,161 +136,81 @@ impl Drift {
     }
 }
 
-/// Samples at these times (s) as a linear model: mean and harmonics, then the functions of the drifts one after another.
-pub(super) fn design(
-    times_s: &[f64],
-    span: &Span,
-    (angular, harmonics): (f64, usize),
-    drifts: &[DriftModel],
-) -> DMatrix<f64> {
-    let sizes = drifts.iter().map(|drift| drift.size());
-    let mut design = DMatrix::zeros(1 + 2 * harmonics + sizes.sum::<usize>(), times_s.len());
-    for (mut sample, time_s) in design.column_iter_mut().zip(times_s) {
-        let row = sample.as_mut_slice();
-        let mut from = harmonic_columns(row, angular * (time_s - span.first_s), harmonics);
-        for drift in drifts {
-            let to = from + drift.size();
-            drift.fill(&mut row[from..to], span, *time_s);
-            from = to;
-        }
-    }
-    design
-}
-
-/// Drifts that are compared, all their functions in one linear model.
-struct Candidates {
-    design: DMatrix<f64>,
-    gram: DMatrix<f64>,
-    /// Functions that all have: mean and harmonics. Those of the polynomials follow, then the exponentials.
-    common: usize,
-    times_s: Vec<f64>,
-}
-
-/// A drift, and the places of its functions among those of all candidates.
-type Candidate = (DriftModel, Vec<usize>);
-
-impl Candidates {
-    fn new(signal: &Signal, span: &Span, oscillation: (f64, usize), times_s: Vec<f64>) -> Self {
-        let exponentials = times_s
-            .iter()
-            .map(|&time_s| DriftModel::Exponential { time_s });
-        let polynomial = DriftModel::Polynomial { degree: DEGREE };
-        let all: Vec<DriftModel> = [polynomial].into_iter().chain(exponentials).collect();
-        let design = design(&signal.time_s, span, oscillation, &all);
-        Self {
-            gram: &design * design.transpose(),
-            design,
-            common: 1 + 2 * oscillation.1,
-            times_s,
-        }
-    }
-
-    fn polynomial(&self, degree: usize) -> Candidate {
-        let own = self.common..self.common + degree;
-        (DriftModel::Polynomial { degree }, own.collect())
-    }
-
-    /// Exponentials of all time constants, then those with a line.
-    fn exponentials(&self) -> impl Iterator<Item = Candidate> + '_ {
-        let times = || (self.common + DEGREE..).zip(&self.times_s);
-        let alone =
-            times().map(|(place, &time_s)| (DriftModel::Exponential { time_s }, vec![place]));
-        let line = self.common;
-        let and_line = times().map(move |(place, &time_s)| {
-            (DriftModel::ExponentialAndLine { time_s }, vec![place, line])
-        });
-        alone.chain(and_line)
-    }
-
-    fn normal(&self, own: &[usize]) -> Option<Normal> {
-        let all = (0..self.common).chain(own.iter().copied());
-        Normal::new(&self.gram, all.collect())
-    }
-
-    /// How many samples of a signal count as independent beside the richest polynomial.
-    fn independent(&self, signal: &DVector<f64>, degree: usize) -> Option<f64> {
-        let normal = self.normal(&self.polynomial(degree).1)?;
-        let coefficients = normal.solve(&(&self.design * signal));
-        let residual = signal - self.design.tr_mul(&coefficients);
-        let phi = correlation(residual.as_slice());
-        Some((residual.len() as f64 * (1.0 - phi) / (1.0 + phi)).max(4.0))
-    }
-
-    /// The best of these for a signal without its mean, or no drift; with its criterion, of which less is better. A later one must be
-    /// better by strong evidence, but among those of one size.
-    fn best(
-        &self,
-        signal: &DVector<f64>,
-        independent: f64,
-        candidates: impl Iterator<Item = Candidate>,
-    ) -> (f64, DriftModel) {
-        let right = &self.design * signal;
-        let squares = signal.norm_squared();
-        let criterion = |model: DriftModel, own: &[usize]| {
-            let explained = self.normal(own).map(|normal| normal.explained(&right));
-            // What rounding leaves of an exact record.
-            let left = explained.map(|explained| (squares - explained).max(1e-13 * squares));
-            // A time constant is a coefficient too.
-            let size = model.size() + usize::from(model.time_s().is_some());
-            left.map_or(f64::INFINITY, |left| {
-                independent * left.ln() + size as f64 * independent.ln()
-            })
-        };
-        let none = DriftModel::None;
-        let mut best = (criterion(none, &[]), none);
-        for (model, own) in candidates {
-            let criterion = criterion(model, &own);
-            let is_larger = model.size() != best.1.size();
-            let needed = if is_larger { EVIDENCE } else { 0.0 };
-            if criterion < best.0 - needed {
-                best = (criterion, model);
-            }
-        }
-        best
-    }
-}
-
-/// The drift of every signal at a known frequency: of the candidates that with the largest evidence (Bayesian information
-/// criterion), where correlated noise counts as fewer samples.
-pub(super) fn select(
-    signal: &Signal,
-    span: &Span,
-    angular: f64,
-    harmonics: usize,
-) -> [DriftModel; 2] {
-    let period_s = std::f64::consts::TAU / angular;
-    let cycles = (span.duration_s() / period_s).round() as usize;
+/// The drift of a signal at a known frequency: of none, polynomials and exponentials that with the largest evidence (Bayesian
+/// information criterion), where correlated noise counts as fewer samples.
+pub(super) fn select(model: &RecordModel, times_s: &[f64], values: &[f64]) -> DriftModel {
+    let duration_s = model.span.duration_s();
+    let period_s = std::f64::consts::TAU / model.angular;
+    let cycles = (duration_s / period_s).round() as usize;
     let degree = cycles.saturating_sub(1).clamp(1, DEGREE);
-    let longest_s = 3.0 * span.duration_s();
-    let about = |from_s: f64, to_s: f64| {
-        let times_s = grid::in_steps(from_s, to_s.min(longest_s), TIMES - 1);
-        Candidates::new(signal, span, (angular, harmonics), times_s)
+    let polynomials = (0..=degree).map(|degree| match degree {
+        0 => DriftModel::None,
+        degree => DriftModel::Polynomial { degree },
+    });
+    let fitted = polynomials.map(|drift| (drift, model.fit(times_s, values, drift)));
+    let fitted: Vec<(DriftModel, Option<Fit>)> = fitted.collect();
+    let Some((_, Some(richest))) = fitted.last() else {
+        return DriftModel::None;
     };
-    let candidates = about(0.5 * period_s, longest_s);
-    [&signal.load_n, &signal.approach_m].map(|values| {
-        // Without the mean, so that nothing is lost to cancellation.
-        let values = DVector::from_column_slice(values);
-        let values = values.add_scalar(-values.mean());
-        let Some(independent) = candidates.independent(&values, degree) else {
-            return DriftModel::None;
+    let phi = correlation(richest.residual.as_slice());
+    let independent = (times_s.len() as f64 * (1.0 - phi) / (1.0 + phi)).max(4.0);
+    // Less is better. A time constant is a coefficient too; of an exact record rounding is left.
+    let criterion = |drift: DriftModel, unexplained: f64| {
+        let size = drift.size() + usize::from(drift.time_s().is_some());
+        independent * unexplained.max(1e-13).ln() + size as f64 * independent.ln()
+    };
+    let of_fit = |(drift, fit): &(DriftModel, Option<Fit>)| {
+        Some((criterion(*drift, fit.as_ref()?.unexplained), *drift))
+    };
+    let Some(polynomial) = evident(fitted.iter().filter_map(of_fit)) else {
+        return DriftModel::None;
+    };
+    if polynomial.1 == DriftModel::None {
+        return DriftModel::None;
+    }
+    let function = |time_s: f64| {
+        let since_s = times_s.iter().map(|time| time - model.span.first_s);
+        DVector::from_iterator(times_s.len(), since_s.map(|since| (-since / time_s).exp()))
+    };
+    let longest_s = 3.0 * duration_s;
+    // Beside nothing or beside a line: the best time constant of a grid, then of finer ones about it.
+    let kinds: [fn(f64) -> DriftModel; 2] = [
+        |time_s| DriftModel::Exponential { time_s },
+        |time_s| DriftModel::ExponentialAndLine { time_s },
+    ];
+    let exponentials = fitted.iter().zip(kinds).filter_map(|((_, beside), kind)| {
+        let beside = beside.as_ref()?;
+        let of_time = |time_s: f64| {
+            let function = function(time_s);
+            Some((
+                criterion(kind(time_s), beside.unexplained_with(&function)?),
+                time_s,
+            ))
         };
-        let polynomials = (1..=degree).map(|degree| candidates.polynomial(degree));
-        let polynomial = candidates.best(&values, independent, polynomials);
-        if matches!(polynomial.1, DriftModel::None) {
-            return DriftModel::None;
-        }
-        // Between two of the time constants lies one that may be better than any polynomial.
-        let mut exponential = candidates.best(&values, independent, candidates.exponentials());
-        for width in [1.6, 1.1] {
-            let Some(time_s) = exponential.1.time_s() else {
-                break;
-            };
-            let finer = about(time_s / width, time_s * width);
-            exponential = finer.best(&values, independent, finer.exponentials());
-        }
-        match exponential {
-            (criterion, model) if model.time_s().is_some() && criterion < polynomial.0 => model,
-            _ => polynomial.1,
+        let best = |from_s: f64, to_s: f64| {
+            let times_s = grid::in_steps(from_s, to_s.min(longest_s), TIMES - 1);
+            let tried = times_s.into_iter().filter_map(of_time);
+            tried.min_by(|a, b| a.0.total_cmp(&b.0))
+        };
+        let found = best(0.5 * period_s, longest_s)?;
+        let found = best(found.1 / 1.6, found.1 * 1.6)?;
+        let (criterion, time_s) = best(found.1 / 1.1, found.1 * 1.1)?;
+        Some((criterion, kind(time_s)))
+    });
+    let none = fitted.first().and_then(of_fit);
+    match evident(none.into_iter().chain(exponentials)) {
+        Some((criterion, drift)) if drift.time_s().is_some() && criterion < polynomial.0 => drift,
+        _ => polynomial.1,
+    }
+}
+
+/// The best of these drifts, of which a later one must be better by strong evidence.
+fn evident(drifts: impl Iterator<Item = (f64, DriftModel)>) -> Option<(f64, DriftModel)> {
+    drifts.reduce(|best, next| {
+        if next.0 < best.0 - EVIDENCE {
+            next
+        } else {
+            best
         }
     })
 }
@@ -313,7 +233,8 @@ mod tests {
     }
 
     fn found(signal: &Signal) -> DriftModel {
-        select(signal, &Span::of(signal), TAU, 5)[1]
+        let model = RecordModel::with_parabolas(signal, TAU, 5);
+        select(&model, &signal.time_s, &signal.approach_m)
     }
 
     #[test]

@@ -6,7 +6,7 @@ use realfft::RealFftPlanner;
 use serde::{Deserialize, Serialize};
 
 use super::drift::{self, DriftModel, Span};
-use super::least_squares::Normal;
+use super::least_squares::{LEAST, Normal, harmonic_columns};
 use super::noise::Noise;
 use super::signal::Sampling;
 use super::{MeasuredError, Signal};
@@ -160,21 +160,39 @@ pub(super) struct RecordModel {
     pub(super) span: Span,
 }
 
-/// What a model is of one signal.
+/// A model fitted to one signal.
 pub(super) struct Fit {
-    /// Of all columns: mean, harmonics, both drifts.
+    design: DMatrix<f64>,
+    pub(super) normal: Normal,
+    /// Mean, sine and cosine of every harmonic, drift.
     pub(super) coefficients: DVector<f64>,
     pub(super) residual: DVector<f64>,
     /// The part of the variance that is left.
     pub(super) unexplained: f64,
-    pub(super) normal: Normal,
-    pub(super) columns: usize,
 }
 
 impl Fit {
     /// Of the first harmonic.
     pub(super) fn amplitude(&self) -> f64 {
         self.coefficients[1].hypot(self.coefficients[2])
+    }
+
+    /// The part of the variance that is left with a further function; `None` of one that has next to nothing of its own.
+    pub(super) fn unexplained_with(&self, function: &DVector<f64>) -> Option<f64> {
+        let (product, own) = self.further(function);
+        let left = self.residual.norm_squared();
+        let part = self.unexplained / left * (left - product * product / own);
+        (own > LEAST * LEAST * function.norm_squared()).then_some(part)
+    }
+
+    /// Product of a further function with the residual, and the square of what it has of its own beside those of the model.
+    pub(super) fn further(&self, function: &DVector<f64>) -> (f64, f64) {
+        let products = &self.design * function;
+        let explained = products.dot(&self.normal.solve(&products));
+        (
+            function.dot(&self.residual),
+            function.norm_squared() - explained,
+        )
     }
 }
 
@@ -191,54 +209,55 @@ impl RecordModel {
 
     /// Chooses the drifts at the frequency of the model, beside this many harmonics.
     pub(super) fn select_drifts(&mut self, signal: &Signal, harmonics: usize) {
-        self.drifts = drift::select(signal, &self.span, self.angular, harmonics);
+        let model = Self { harmonics, ..*self };
+        self.drifts = [&signal.load_n, &signal.approach_m]
+            .map(|values| drift::select(&model, &signal.time_s, values));
     }
 
-    /// Mean and harmonics.
+    /// Number of coefficients of mean and harmonics.
     pub(super) fn common(&self) -> usize {
         1 + 2 * self.harmonics
     }
 
-    /// Where the columns of the drift of a signal are, 0 the load.
-    pub(super) fn drift_columns(&self, which: usize) -> std::ops::Range<usize> {
-        let from = self.common() + if which == 0 { 0 } else { self.drifts[0].size() };
-        from..from + self.drifts[which].size()
-    }
-
-    fn design(&self, times_s: &[f64]) -> DMatrix<f64> {
-        let harmonics = (self.angular, self.harmonics);
-        drift::design(times_s, &self.span, harmonics, &self.drifts)
+    /// Mean, harmonics and this drift fitted to samples; `None` where these do not determine them.
+    pub(super) fn fit(&self, times_s: &[f64], values: &[f64], drift: DriftModel) -> Option<Fit> {
+        let mut design = DMatrix::zeros(self.common() + drift.size(), times_s.len());
+        for (mut sample, time_s) in design.column_iter_mut().zip(times_s) {
+            let (common, own) = sample.as_mut_slice().split_at_mut(self.common());
+            harmonic_columns(common, self.angular * (time_s - self.span.first_s));
+            drift.fill(own, &self.span, *time_s);
+        }
+        let normal = Normal::new(&design)?;
+        let values = DVector::from_column_slice(values);
+        // Without the mean, so that nothing is lost to cancellation.
+        let mean = values.mean();
+        let centered = values.add_scalar(-mean);
+        let mut coefficients = normal.solve(&(&design * &centered));
+        let residual = &centered - design.tr_mul(&coefficients);
+        let unexplained = residual.norm_squared() / centered.norm_squared();
+        coefficients[0] += mean;
+        Some(Fit {
+            design,
+            normal,
+            coefficients,
+            residual,
+            unexplained,
+        })
     }
 
     /// Load and approach fitted; `None` where the samples do not determine the model.
     pub(super) fn fits(&self, signal: &Signal) -> Option<[Fit; 2]> {
-        self.fits_of(&self.design(&signal.time_s), signal)
+        let [load, approach] = self.drifts;
+        Some([
+            self.fit(&signal.time_s, &signal.load_n, load)?,
+            self.fit(&signal.time_s, &signal.approach_m, approach)?,
+        ])
     }
 
-    fn fits_of(&self, design: &DMatrix<f64>, signal: &Signal) -> Option<[Fit; 2]> {
-        let gram = design * design.transpose();
-        let fit = |which: usize, values: &[f64]| {
-            let columns: Vec<usize> = (0..self.common())
-                .chain(self.drift_columns(which))
-                .collect();
-            let count = columns.len();
-            let normal = Normal::new(&gram, columns)?;
-            let values = DVector::from_column_slice(values);
-            let mean = values.mean();
-            let centered = values.add_scalar(-mean);
-            let mut coefficients = normal.solve(&(design * &centered));
-            let residual = &centered - design.tr_mul(&coefficients);
-            let unexplained = residual.norm_squared() / centered.norm_squared();
-            coefficients[0] += mean;
-            Some(Fit {
-                coefficients,
-                residual,
-                unexplained,
-                normal,
-                columns: count,
-            })
-        };
-        Some([fit(0, &signal.load_n)?, fit(1, &signal.approach_m)?])
+    /// The noise of what a fit to samples at these times (s) leaves.
+    pub(super) fn noise(&self, fit: &Fit, times_s: &[f64], interval_s: f64) -> Noise {
+        let (residual, coefficients) = (fit.residual.as_slice(), fit.coefficients.len());
+        Noise::of(residual, times_s, coefficients, interval_s, self.angular)
     }
 
     /// The frequency by least squares, and its standard error (rad/s); leaves it in the model. `None` where it does not settle.
@@ -246,18 +265,12 @@ impl RecordModel {
         let start = self.angular;
         let line = std::f64::consts::TAU / sampling.duration_s;
         for _ in 0..STEPS {
-            let design = self.design(&signal.time_s);
-            let fits = self.fits_of(&design, signal)?;
             let (mut slope, mut curvature, mut error) = (0.0, 0.0, 0.0);
-            for fit in &fits {
-                let (own_slope, own_curvature) = self.derivative(&design, fit, signal);
-                let noise = Noise::of(
-                    fit.residual.as_slice(),
-                    &[],
-                    fit.columns,
-                    sampling.interval_s,
-                    self.angular,
-                );
+            for fit in self.fits(signal)? {
+                // Variable projection in the form of L. Kaufman (BIT 15, 1975, 49).
+                let derivative = self.derivative(&fit, signal);
+                let (own_slope, own_curvature) = fit.further(&derivative);
+                let noise = self.noise(&fit, &[], sampling.interval_s);
                 let size = fit.amplitude();
                 // An exact record has no noise to weigh by, but rounding.
                 let variance = noise.variance.max(1e-24 * size * size);
@@ -282,10 +295,9 @@ impl RecordModel {
         None
     }
 
-    /// Product of the residual with the derivative of the model by the frequency, and the square of what the derivative has of its
-    /// own beside the columns (variable projection in the form of L. Kaufman, BIT 15, 1975, 49).
-    fn derivative(&self, design: &DMatrix<f64>, fit: &Fit, signal: &Signal) -> (f64, f64) {
-        let samples = design.column_iter().zip(&signal.time_s);
+    /// The derivative of a fitted signal by the frequency.
+    fn derivative(&self, fit: &Fit, signal: &Signal) -> DVector<f64> {
+        let samples = fit.design.column_iter().zip(&signal.time_s);
         let derivative = samples.map(|(row, time_s)| {
             let turned = (1..=self.harmonics).map(|n| {
                 let (sine, cosine) = (row[2 * n - 1], row[2 * n]);
@@ -294,10 +306,7 @@ impl RecordModel {
             });
             (time_s - self.span.first_s) * turned.sum::<f64>()
         });
-        let derivative = DVector::from_iterator(signal.time_s.len(), derivative);
-        let explained = fit.normal.explained(&(design * &derivative));
-        let own = derivative.norm_squared() - explained;
-        (derivative.dot(&fit.residual), own)
+        DVector::from_iterator(signal.time_s.len(), derivative)
     }
 }
 

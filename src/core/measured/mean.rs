@@ -6,6 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use num_complex::Complex;
 
 use super::bias;
+use super::cycles::{coefficients, of_coefficients};
 use super::frequency::{Fit, RecordModel};
 use super::noise::Noise;
 use super::quality::Finding;
@@ -188,13 +189,7 @@ impl Mean<'_> {
         let mut freedom = f64::INFINITY;
         let mut coarse = Vec::new();
         for (which, fit) in fits.iter().enumerate() {
-            let noise = Noise::of(
-                fit.residual.as_slice(),
-                &signal.time_s,
-                fit.columns,
-                interval_s,
-                self.model.angular,
-            );
+            let noise = self.model.noise(fit, &signal.time_s, interval_s);
             freedom = freedom.min(noise.freedom);
             let steps = self.steps(&signal.time_s, (which, sampling), fit, &noise);
             if steps > COARSE * noise.variance * noise.power(self.model.angular, 1) {
@@ -287,19 +282,9 @@ impl Mean<'_> {
         (center, covariance): (&Values, &DMatrix<f64>),
     ) -> DMatrix<f64> {
         let moved = |column: usize, by: f64| {
-            let mut moved = mean.clone();
-            let (level, harmonics) = match which {
-                0 => (&mut moved.load_mean_n, &mut moved.load_n),
-                _ => (&mut moved.approach_mean_m, &mut moved.approach_m),
-            };
-            match column.checked_sub(1) {
-                None => *level += by,
-                Some(k) => match harmonics.get_mut(k / 2) {
-                    Some(harmonic) if k % 2 == 0 => harmonic.re += by,
-                    Some(harmonic) => harmonic.im += by,
-                    None => {}
-                },
-            }
+            let mut moved = coefficients(mean);
+            moved[which][column] += by;
+            let moved = of_coefficients(&moved);
             let corrected = (self.options.corrections).applied(self.model.angular, &moved);
             (self.options).values(&corrected, column_m, self.model.angular)
         };
@@ -366,25 +351,14 @@ fn step_of(which: usize, sampling: &Sampling) -> (&'static str, Option<f64>) {
 }
 
 /// The mean of cycles as the instrument gives them: their harmonics share one origin of time.
-fn mean_cycle<'a>(cycles: impl Iterator<Item = &'a Harmonics> + Clone) -> Harmonics {
-    let count = cycles.clone().count().max(1) as f64;
-    let level = |value: fn(&Harmonics) -> f64| cycles.clone().map(value).sum::<f64>() / count;
-    let harmonics = |of: fn(&Harmonics) -> &[Complex<f64>]| {
-        let fitted = cycles.clone().map(|cycle| of(cycle).len()).min();
-        let sum = |n: usize| {
-            cycles
-                .clone()
-                .map(|cycle| of(cycle)[n])
-                .sum::<Complex<f64>>()
-        };
-        (0..fitted.unwrap_or(0)).map(|n| sum(n) / count).collect()
-    };
-    Harmonics {
-        load_mean_n: level(|cycle| cycle.load_mean_n),
-        approach_mean_m: level(|cycle| cycle.approach_mean_m),
-        load_n: harmonics(|cycle| &cycle.load_n),
-        approach_m: harmonics(|cycle| &cycle.approach_m),
-    }
+fn mean_cycle<'a>(cycles: impl ExactSizeIterator<Item = &'a Harmonics>) -> Harmonics {
+    let count = cycles.len().max(1) as f64;
+    let sum = cycles
+        .map(coefficients)
+        .reduce(|[a, b], [c, d]| [a + c, b + d]);
+    sum.map_or_else(Harmonics::default, |sum| {
+        of_coefficients(&sum.map(|of| of / count))
+    })
 }
 
 /// An angle between -pi and pi.

@@ -2,7 +2,7 @@
 //! frequencies than its samples say. What a model of a few harmonics leaves of a cycle, the kinks of one that lifts off say, repeats
 //! itself and is no noise.
 
-use super::least_squares::harmonic_columns;
+use num_complex::Complex;
 
 /// The noise of one signal.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,40 +47,33 @@ fn without_harmonics(
     if duration_s * angular / std::f64::consts::TAU < REPEATED || harmonics == 0 {
         return (rest, 0);
     }
-    let mut row = vec![0.0; 1 + 2 * harmonics];
-    let mut sums = vec![0.0; row.len()];
-    for (r, t) in residual.iter().zip(times_s) {
-        harmonic_columns(&mut row, angular * (t - first_s), harmonics);
-        sums.iter_mut()
-            .zip(&row)
-            .for_each(|(sum, column)| *sum += r * column);
-    }
     let samples = residual.len() as f64;
     let mut squares: f64 = residual.iter().map(|r| r * r).sum();
-    let mut powers: Vec<(f64, usize)> = (1..=harmonics)
-        .map(|n| (sums[2 * n - 1].powi(2) + sums[2 * n].powi(2), n))
+    let harmonics = (1..=harmonics).map(|n| n as f64 * angular);
+    let mut lines: Vec<(f64, Complex<f64>)> = harmonics
+        .map(|frequency| (frequency, line(residual, times_s, frequency)))
         .collect();
-    powers.sort_by(|a, b| b.0.total_cmp(&a.0));
+    lines.sort_by(|a, b| b.1.norm_sqr().total_cmp(&a.1.norm_sqr()));
     // The strongest first: what it adds hides the others.
-    let mut taken = Vec::new();
-    for (power, n) in powers {
-        if power <= STANDS_OUT * squares {
+    let mut lost = 0;
+    for (frequency, line) in lines {
+        if line.norm_sqr() <= STANDS_OUT * squares {
             break;
         }
-        squares -= 2.0 * power / samples;
-        taken.push(n);
-    }
-    if taken.is_empty() {
-        return (rest, 0);
-    }
-    for (r, t) in rest.iter_mut().zip(times_s) {
-        harmonic_columns(&mut row, angular * (t - first_s), harmonics);
-        for n in &taken {
-            let own = sums[2 * n - 1] * row[2 * n - 1] + sums[2 * n] * row[2 * n];
-            *r -= 2.0 / samples * own;
+        squares -= 2.0 * line.norm_sqr() / samples;
+        lost += 2;
+        for (r, t) in rest.iter_mut().zip(times_s) {
+            *r -= 2.0 / samples * (line.conj() * Complex::cis(frequency * (t - first_s))).re;
         }
     }
-    (rest, 2 * taken.len())
+    (rest, lost)
+}
+
+/// The sum of a residual times exp(i omega t), from the first of its times (s) on.
+fn line(residual: &[f64], times_s: &[f64], angular: f64) -> Complex<f64> {
+    let turn = |t: &f64| Complex::cis(angular * (t - times_s[0]));
+    let samples = residual.iter().zip(times_s);
+    samples.map(|(r, t)| turn(t) * r).sum()
 }
 
 /// Correlation of neighbours, not below zero: what alternates does no harm, and may be by chance.
@@ -136,13 +129,7 @@ impl Noise {
             // Between the harmonics and between the lines of the record: half a line off.
             let side = f64::from(step) + 0.5 * f64::from(step.signum());
             let frequency = angular * (1.0 + side / cycles);
-            let (mut re, mut im) = (0.0, 0.0);
-            for (r, t) in residual.iter().zip(times_s) {
-                let (sine, cosine) = (frequency * (t - first)).sin_cos();
-                re += r * cosine;
-                im += r * sine;
-            }
-            re * re + im * im
+            line(residual, times_s, frequency).norm_sqr()
         };
         let steps = (-SIDE..=SIDE).filter(|step| *step != 0);
         let sum: f64 = steps.map(power).sum();
@@ -167,6 +154,7 @@ impl Noise {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::measured::least_squares::harmonic_columns;
     use std::f64::consts::TAU;
 
     /// Uniform numbers of a congruential generator (D. E. Knuth's), less their mean, with a correlation of neighbours.
@@ -220,7 +208,7 @@ mod tests {
         let mut row = [0.0; 13];
         let mut sums = [0.0; 13];
         for (value, t) in cut.iter().zip(&times) {
-            harmonic_columns(&mut row, angular * t, 6);
+            harmonic_columns(&mut row, angular * t);
             sums.iter_mut()
                 .zip(row)
                 .for_each(|(sum, column)| *sum += value * column / 240.0);
@@ -230,7 +218,7 @@ mod tests {
         let of = |part: f64| {
             let residual = (cut.iter().zip(&times).zip(&white)).map(|((value, t), noise)| {
                 let mut row = [0.0; 13];
-                harmonic_columns(&mut row, angular * t, 6);
+                harmonic_columns(&mut row, angular * t);
                 let fitted: f64 = row
                     .iter()
                     .zip(sums)

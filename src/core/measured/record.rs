@@ -110,8 +110,7 @@ pub fn analyse(signal: &Signal, options: &Options) -> Result<MeasuredLoop, Measu
             cycles: sampling.duration_s / period_s,
         });
     }
-    let of_model = (model.angular, model.harmonics);
-    let (cycles, incomplete) = cut.fitted(&signal, of_model, &drifts, &options.corrections);
+    let (cycles, incomplete) = cut.fitted(&signal, &model, &drifts, &options.corrections);
     if !incomplete.is_empty() {
         findings.push(Finding::Incomplete { cycles: incomplete });
     }
@@ -294,7 +293,7 @@ fn drifts(
         findings.extend(lines::highest(&rest, sampling));
     }
     Ok([0, 1].map(|which| {
-        let coefficients = &fits[which].coefficients.as_slice()[model.drift_columns(which)];
+        let coefficients = &fits[which].coefficients.as_slice()[model.common()..];
         Drift::new(model.drifts[which], coefficients, span)
     }))
 }
