@@ -25,7 +25,7 @@ mod spectral;
 mod window;
 
 use std::fmt;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError, Weak};
+use std::sync::{Arc, Mutex, PoisonError, Weak};
 
 use realfft::FftError;
 use thiserror::Error;
@@ -93,8 +93,6 @@ struct Operators {
     product: SpectralProduct,
     /// What windows of this grid need, by their cells along x and y, built when first asked for.
     windows: Mutex<Vec<Window>>,
-    /// The operators of cells twice as long, built when first asked for.
-    coarse: OnceLock<Arc<Operators>>,
 }
 
 /// Operators of half-spaces in use.
@@ -116,7 +114,6 @@ impl Operators {
             product: free_space(&grid, layer.clone())?,
             layer,
             windows: Mutex::default(),
-            coarse: OnceLock::new(),
         })
     }
 
@@ -247,23 +244,6 @@ impl Convolution {
         })
     }
 
-    /// The operator of the grid whose cells are twice as long, so that each holds two by two of this one's. Built when first
-    /// asked for, then shared.
-    ///
-    /// # Errors
-    /// As [`Convolution::new`].
-    pub fn coarse(&self) -> Result<Arc<Convolution>, ConvolutionError> {
-        let operators = match self.operators.coarse.get() {
-            Some(coarse) => Arc::clone(coarse),
-            None => {
-                let grid = self.operators.grid.coarse();
-                let coarse = Operators::on(&grid, self.operators.layer.clone())?;
-                Arc::clone(self.operators.coarse.get_or_init(|| coarse))
-            }
-        };
-        Ok(Arc::new(Self::of(self.grid.coarse(), operators)))
-    }
-
     /// Displacement of every cell's centre, in m per 1/Pa of contact compliance, by `pressure` (Pa), both row by row
     /// over [`Convolution::grid`]. The scratch is made to fit, which allocates only what it never held before. Rows without load
     /// above and below the loaded ones cost nothing.
@@ -319,8 +299,8 @@ fn mirrored(
     Ok(SpectralProduct::new(grid, row, column, spectrum))
 }
 
-/// Bytes that the operator of a grid takes with all that belongs to it: spectra with and without padding, those of coarser
-/// grids, and work space of one thread.
+/// Bytes that the operator of a grid takes with all that belongs to it: spectra with and without padding, and work space of one
+/// thread.
 fn predicted_bytes(grid: &Grid) -> usize {
     let (x, y) = (grid.cells_x(), grid.cells_y());
     let row = |cells: usize| 2 * length::fast_row_half(cells);
@@ -335,8 +315,7 @@ fn predicted_bytes(grid: &Grid) -> usize {
         let spectra = (half + 1) * (padded_column / 2 + 1) + (half / 2 + 1) * (column / 2 + 1);
         (spectra, 2 * y * (half + half / 2 + 2))
     };
-    // A fourth of the cells, a sixteenth and so on: a third of the spectra.
-    size_of::<f64>() * (spectra + spectra / 3 + scratch)
+    size_of::<f64>() * (spectra + scratch)
 }
 
 /// Fields of one value per cell that engine and march hold, whatever the material: gap (1), pressure, gap under load, operand and

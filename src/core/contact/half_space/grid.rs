@@ -185,17 +185,6 @@ impl Grid {
         }
     }
 
-    /// Cells twice as long, each in place of two by two; the last ones reach beyond an odd grid.
-    pub(super) fn coarse(&self) -> Self {
-        Self {
-            cells_x: self.cells_x.div_ceil(2),
-            cells_y: self.cells_y.div_ceil(2),
-            spacing_x_m: 2.0 * self.spacing_x_m,
-            spacing_y_m: 2.0 * self.spacing_y_m,
-            mirrored: self.mirrored,
-        }
-    }
-
     /// The quarter with x > 0 and y > 0, which holds all of a field that is even in x and in y; `None` where a row or column of
     /// cells lies on an axis.
     pub fn quarter(&self) -> Option<Self> {

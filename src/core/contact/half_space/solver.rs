@@ -9,7 +9,6 @@
 
 mod active_set;
 mod area;
-mod coarse;
 mod frame;
 mod outside;
 mod spans;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::super::influence::Influence;
-use super::super::instant::{Imposed, ROUNDING, start};
+use super::super::instant::{Imposed, ROUNDING, hertz_guess, start};
 use super::active_set::{Ending, Problem, State, Work};
 use super::frame::Frame;
 use super::outside::{Moments, OutsideGapBound, first_centre};
@@ -36,7 +36,7 @@ impl HalfSpace {
         let row = grid.cells_x();
         let mut guess = Frame::of(pressure, row);
         if guess.is_none() {
-            self.guess_from_coarse(instant, imposed, pressure, work)?;
+            self.guess_as_hertz(instant, imposed, pressure, work)?;
             guess = Frame::of(pressure, row);
         }
         let rows = guess.map_or(0..grid.cells_y(), |loaded| loaded.rows());
@@ -80,6 +80,28 @@ impl HalfSpace {
             }
             contact = wider;
         }
+    }
+
+    /// Fills `pressure`, zero so far, with Hertz' pressure on the gap that the history leaves.
+    fn guess_as_hertz(
+        &mut self,
+        instant: &Instant<'_>,
+        imposed: Imposed,
+        pressure: &mut [f64],
+        work: &mut Work,
+    ) -> Result<(), ContactError> {
+        let mut gap_m = self.gap_m.clone();
+        if instant.history.iter().any(|h| *h != 0.0) {
+            let scratch = &mut self.scratches.convolution;
+            (self.operator).apply(instant.history, &mut gap_m, scratch)?;
+            work.convolutions += 1;
+            for (gap, own) in gap_m.iter_mut().zip(&self.gap_m) {
+                *gap += own;
+            }
+        }
+        let cell_m = self.nodal_area_m2().sqrt();
+        hertz_guess(imposed, &gap_m, instant.compliance_per_pa, cell_m, pressure);
+        Ok(())
     }
 
     /// Takes pressure and history into the windows.
