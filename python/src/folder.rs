@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use contact_dma::indenter::{HeightMap, Indenter, MapQuantity, Parameter};
+use contact_dma::indenter::{HeightMap, Indenter, MapQuantity, data_file};
 use contact_dma::report::npy;
 use contact_dma::sweep::plan::resolved::hash_of_bytes;
 use contact_dma::sweep::store::{Store, StoreError, files};
@@ -32,7 +32,7 @@ impl MapFile {
         let (spacing_m, gaps) = (map.spacing_m(), map.gaps_m().to_vec());
         let same = HeightMap::new(map.cells(), spacing_m, gaps, MapQuantity::Gap, map.edge());
         let same = same.map_err(failure::of_value)?;
-        let mut parameters = Parameter::of_file(file, &hash_of_bytes(&bytes));
+        let mut parameters = data_file(file, &hash_of_bytes(&bytes));
         parameters.extend(same.parameters());
         let same = same.made_from(HeightMap::SHAPE, parameters);
         Ok(Self {

@@ -17,6 +17,7 @@
 
 mod error;
 mod frequency;
+pub mod setting;
 mod units;
 
 use std::fmt;

@@ -22,8 +22,8 @@ use super::map_values::MapReading;
 use super::material_block;
 use super::material_table::DirectSum;
 use crate::indenter::{
-    Asperities, Asperity, Cone, Ellipsoid, FlatPunch, HeightMap, Indenter, IndenterError,
-    Parameter, PowerLaw, Profile, Roughness, Shifted, Sphere,
+    Asperities, Asperity, Cone, Ellipsoid, FlatPunch, HeightMap, Indenter, IndenterError, PowerLaw,
+    Profile, Roughness, Setting, Shifted, Sphere, data_file,
 };
 use crate::material::Material;
 use crate::sweep::plan::resolved;
@@ -224,7 +224,7 @@ impl Block<'_> {
             problems.at(&place, message).help("rename the folder");
             return None;
         };
-        let source = Parameter::of_file(absolute, &hash);
+        let source = data_file(absolute, &hash);
         let made = data_file::accepted(make(&name, &bytes), &place, problems)?;
         let named = Named {
             place,
@@ -313,5 +313,5 @@ struct Named {
     /// What messages call them.
     name: String,
     /// The settings that name the file, where they are from one.
-    source: Vec<Parameter>,
+    source: Vec<Setting>,
 }

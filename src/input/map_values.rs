@@ -1,7 +1,7 @@
 //! What the values of a height map mean: their unit, and what is subtracted from them; and whether the map is a surface that contact can
 //! be computed for.
 
-use crate::indenter::{HeightMap, IndenterError, MapEdge, MapQuantity, Parameter};
+use crate::indenter::{HeightMap, IndenterError, MapEdge, MapQuantity, Setting};
 
 /// The median slope of a map above which it is no surface in contact. Of rough surfaces, paraboloids, punches with walls and maps
 /// with 5 % of bad points the median was at most 0.6 (a cone 30 degrees from flat); the same heights in micrometres read as metres
@@ -97,11 +97,11 @@ impl MapReading {
     }
 
     /// A setting of the map as the file was read, without what the file gives itself.
-    pub(super) fn parameter(&self, own: Parameter) -> Option<Parameter> {
-        match own.key {
+    pub(super) fn parameter(&self, own: Setting) -> Option<Setting> {
+        match &*own.key {
             "spacing" | "height_unit" if self.gives_places => None,
-            "height_unit" => Some(Parameter::choice(own.key, &HEIGHT_UNITS, self.unit_per_m)),
-            "level" => Some(Parameter::choice(own.key, &MapLevel::NAMES, self.level)),
+            "height_unit" => Some(Setting::choice(own.key, &HEIGHT_UNITS, self.unit_per_m)),
+            "level" => Some(Setting::choice(own.key, &MapLevel::NAMES, self.level)),
             _ => Some(own),
         }
     }

@@ -208,7 +208,7 @@ fn indenter(
         )
     };
     let mut settings = indenter.parameters();
-    settings.retain(|own| told(&own.value) && !is_swept(swept, Block::Indenter, own.key));
+    settings.retain(|own| told(&own.value) && !is_swept(swept, Block::Indenter, &own.key));
     match settings.is_empty() {
         true => shape,
         false => format!("{shape} ({})", row(&settings)),

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use super::number::{self, four_digits, plain, scientific};
 use crate::drive::HarmonicDrive;
 use crate::engine::EngineKind;
-use crate::indenter::{Parameter, Value};
+use crate::indenter::{Setting, Value};
 use crate::material::{Compressibility, Material, Relaxation};
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::plan::adhesion::AdhesionPlan;
@@ -128,8 +128,8 @@ pub fn named(key: &str) -> String {
 }
 
 /// Settings in one line: `radius 10 mm, height 1 µm`.
-pub fn row(table: &[Parameter]) -> String {
-    let entry = |p: &Parameter| format!("{} {}", named(p.key), value(&p.value));
+pub fn row(table: &[Setting]) -> String {
+    let entry = |p: &Setting| format!("{} {}", named(&p.key), value(&p.value));
     table.iter().map(entry).collect::<Vec<_>>().join(", ")
 }
 
@@ -145,6 +145,7 @@ pub fn value(value: &Value) -> String {
         Value::Integer(integer) => integer.to_string(),
         Value::Text(text) => text.clone(),
         Value::Tables(tables) => format!("{} of them", tables.len()),
+        other => other.toml(),
     }
 }
 

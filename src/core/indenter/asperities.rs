@@ -1,6 +1,6 @@
 //! Several asperities on one rigid body: the lower envelope of paraboloids, each with its own centre, radius and height.
 
-use super::{Domain, Indenter, IndenterError, Parameter, Value, finite_position, positive_length};
+use super::{Domain, Indenter, IndenterError, Setting, Value, finite_position, positive_length};
 use crate::quantity::Dimension;
 
 /// One spherical summit, in small-slope form.
@@ -94,17 +94,17 @@ impl Indenter for Asperities {
         (x_m, y_m)
     }
 
-    fn parameters(&self) -> Vec<Parameter> {
+    fn parameters(&self) -> Vec<Setting> {
         let table = |asperity: &Asperity| {
             let center = vec![asperity.center_x_m, asperity.center_y_m];
             vec![
-                Parameter::new("center", Value::Quantities(center, Dimension::Length)),
-                Parameter::length("radius", asperity.radius_m),
-                Parameter::length("height", asperity.height_m),
+                Setting::new("center", Value::Quantities(center, Dimension::Length)),
+                Setting::length("radius", asperity.radius_m),
+                Setting::length("height", asperity.height_m),
             ]
         };
         let tables = self.asperities.iter().map(table).collect();
-        vec![Parameter::new("asperities", Value::Tables(tables))]
+        vec![Setting::new("asperities", Value::Tables(tables))]
     }
 
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {

@@ -1,6 +1,6 @@
 //! The cone of half angle alpha, measured between its axis and its side: g = r cot(alpha).
 
-use super::{Axisymmetric, Indenter, IndenterError, Parameter, Value};
+use super::{Axisymmetric, Indenter, IndenterError, Setting, Value};
 use crate::quantity::Dimension;
 
 /// A rigid cone. Small slopes: the linear theory asks for a half angle near 90 degrees.
@@ -30,9 +30,9 @@ impl Indenter for Cone {
         "cone"
     }
 
-    fn parameters(&self) -> Vec<Parameter> {
+    fn parameters(&self) -> Vec<Setting> {
         let angle = Value::Quantity(self.half_angle_rad, Dimension::Angle);
-        vec![Parameter::new("half_angle", angle)]
+        vec![Setting::new("half_angle", angle)]
     }
 
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {

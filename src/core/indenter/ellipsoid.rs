@@ -1,6 +1,6 @@
 //! The ellipsoid by its principal radii of curvature, in small-slope form: g = x^2 / (2 Rx) + y^2 / (2 Ry).
 
-use super::{Axisymmetric, Domain, Indenter, IndenterError, Parameter, Sphere, positive_length};
+use super::{Axisymmetric, Domain, Indenter, IndenterError, Setting, Sphere, positive_length};
 
 /// A rigid body of two principal radii of curvature, along x and y; its elastic contact is an ellipse (Hertz).
 ///
@@ -60,10 +60,10 @@ impl Indenter for Ellipsoid {
         "ellipsoid"
     }
 
-    fn parameters(&self) -> Vec<Parameter> {
+    fn parameters(&self) -> Vec<Setting> {
         vec![
-            Parameter::length("radius_x", self.radius_x_m),
-            Parameter::length("radius_y", self.radius_y_m),
+            Setting::length("radius_x", self.radius_x_m),
+            Setting::length("radius_y", self.radius_y_m),
         ]
     }
 

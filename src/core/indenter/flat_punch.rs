@@ -1,6 +1,6 @@
 //! The flat-ended cylindrical punch: gap 0 inside its radius, no indenter outside.
 
-use super::{Axisymmetric, Indenter, IndenterError, Parameter, positive_length};
+use super::{Axisymmetric, Indenter, IndenterError, Setting, positive_length};
 
 /// A rigid flat punch of circular section.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,8 +27,8 @@ impl Indenter for FlatPunch {
         "flat-punch"
     }
 
-    fn parameters(&self) -> Vec<Parameter> {
-        vec![Parameter::length("radius", self.radius_m)]
+    fn parameters(&self) -> Vec<Setting> {
+        vec![Setting::length("radius", self.radius_m)]
     }
 
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {

@@ -1,6 +1,6 @@
 //! The height map: a measured or computed indenter, given by one value per cell of a regular grid.
 
-use super::{Domain, Indenter, IndenterError, Parameter, Value};
+use super::{Domain, Indenter, IndenterError, Setting, Value};
 use crate::quantity::Dimension;
 
 /// Fewest points of a map in each direction: a contact needs a border of cells around it.
@@ -45,8 +45,8 @@ impl MapEdge {
     ];
 
     /// The key `edge`.
-    pub fn parameter(self) -> Parameter {
-        Parameter::choice("edge", &Self::NAMES, self)
+    pub fn parameter(self) -> Setting {
+        Setting::choice("edge", &Self::NAMES, self)
     }
 }
 
@@ -64,7 +64,7 @@ pub struct HeightMap {
     gap_m: Vec<f64>,
     edge: MapEdge,
     shape: &'static str,
-    parameters: Vec<Parameter>,
+    parameters: Vec<Setting>,
 }
 
 impl HeightMap {
@@ -110,10 +110,10 @@ impl HeightMap {
             edge,
             shape: Self::SHAPE,
             parameters: vec![
-                Parameter::choice("quantity", &MapQuantity::NAMES, quantity),
-                Parameter::new("spacing", spacing),
-                Parameter::text("height_unit", "m"),
-                Parameter::text("level", "none"),
+                Setting::choice("quantity", &MapQuantity::NAMES, quantity),
+                Setting::new("spacing", spacing),
+                Setting::new("height_unit", "m"),
+                Setting::new("level", "none"),
                 edge.parameter(),
             ],
         })
@@ -123,7 +123,7 @@ impl HeightMap {
     pub const SHAPE: &'static str = "height-map";
 
     /// The same map under the shape and the settings from which it was made: a file, or a rough surface.
-    pub fn made_from(self, shape: &'static str, parameters: Vec<Parameter>) -> Self {
+    pub fn made_from(self, shape: &'static str, parameters: Vec<Setting>) -> Self {
         Self {
             shape,
             parameters,
@@ -212,7 +212,7 @@ impl Indenter for HeightMap {
         self.shape
     }
 
-    fn parameters(&self) -> Vec<Parameter> {
+    fn parameters(&self) -> Vec<Setting> {
         self.parameters.clone()
     }
 

@@ -38,52 +38,11 @@ pub use rough::Roughness;
 pub use shifted::Shifted;
 pub use sphere::Sphere;
 
-use crate::quantity::Dimension;
+pub use crate::quantity::setting::{Setting, Value};
 
-/// One setting of a shape, as a sweep file names it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Parameter {
-    pub key: &'static str,
-    pub value: Value,
-}
-
-/// The value of a setting, in SI units.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Value {
-    Quantity(f64, Dimension),
-    Quantities(Vec<f64>, Dimension),
-    Number(f64),
-    Integer(u64),
-    Text(String),
-    Tables(Vec<Vec<Parameter>>),
-}
-
-impl Parameter {
-    /// A length (m).
-    pub fn length(key: &'static str, value_m: f64) -> Self {
-        Self::new(key, Value::Quantity(value_m, Dimension::Length))
-    }
-
-    /// Any other setting.
-    pub fn new(key: &'static str, value: Value) -> Self {
-        Self { key, value }
-    }
-
-    /// A text.
-    pub fn text(key: &'static str, text: &str) -> Self {
-        Self::new(key, Value::Text(text.to_owned()))
-    }
-
-    /// The data file of a shape, by its absolute path, so that it can be read again from anywhere, and the SHA-256 of its bytes.
-    pub fn of_file(file: &str, sha256: &str) -> Vec<Self> {
-        vec![Self::text("file", file), Self::text("sha256", sha256)]
-    }
-
-    /// A choice, by its name among those that a sweep file may give.
-    pub fn choice<T: PartialEq>(key: &'static str, names: &[(&'static str, T)], chosen: T) -> Self {
-        let named = names.iter().find(|(_, choice)| *choice == chosen);
-        Self::text(key, named.map_or("", |(name, _)| name))
-    }
+/// The settings of a data file: its absolute path, so that it can be read again from anywhere, and the SHA-256 of its bytes.
+pub fn data_file(file: &str, sha256: &str) -> Vec<Setting> {
+    vec![Setting::new("file", file), Setting::new("sha256", sha256)]
 }
 
 /// The part of the surface that the half-space engine covers with cells: a rectangle centred on the origin.
@@ -200,7 +159,7 @@ pub trait Indenter: std::fmt::Debug + Send + Sync {
     fn shape(&self) -> &'static str;
 
     /// The settings that make the shape.
-    fn parameters(&self) -> Vec<Parameter>;
+    fn parameters(&self) -> Vec<Setting>;
 
     /// Gap g(x, y) in metres before deformation, 0 at the lowest point; infinite where the indenter ends.
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64;

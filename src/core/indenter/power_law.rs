@@ -2,7 +2,7 @@
 //!
 //! Its contact is that of L. A. Galin (1946) and I. N. Sneddon, Int. J. Engng Sci. 3 (1965) 47.
 
-use super::{Axisymmetric, Indenter, IndenterError, Parameter, Value, positive_length};
+use super::{Axisymmetric, Indenter, IndenterError, Setting, positive_length};
 
 /// Largest exponent. Beyond it the shape is a flat punch for every purpose, and powers leave the range of numbers.
 pub(super) const MAX_EXPONENT: f64 = 100.0;
@@ -46,11 +46,11 @@ impl Indenter for PowerLaw {
         "power-law"
     }
 
-    fn parameters(&self) -> Vec<Parameter> {
+    fn parameters(&self) -> Vec<Setting> {
         vec![
-            Parameter::new("exponent", Value::Number(self.exponent)),
-            Parameter::length("radius", self.radius_m),
-            Parameter::length("height", self.height_m),
+            Setting::new("exponent", self.exponent),
+            Setting::length("radius", self.radius_m),
+            Setting::length("height", self.height_m),
         ]
     }
 

@@ -13,7 +13,7 @@
 //! ```
 
 use super::{
-    Axisymmetric, Domain, Indenter, IndenterError, Parameter, radius_under_approach_m, reach,
+    Axisymmetric, Domain, Indenter, IndenterError, Setting, radius_under_approach_m, reach,
 };
 use crate::numerics::roots::{ALL_DIGITS, bisect};
 
@@ -59,7 +59,7 @@ pub struct Profile {
     not_convex_at_m: Option<f64>,
     /// Radii (m) of an apex (0) and of edges that run around the body.
     singular_m: Vec<f64>,
-    parameters: Vec<Parameter>,
+    parameters: Vec<Setting>,
 }
 
 impl Profile {
@@ -98,7 +98,7 @@ impl Profile {
     }
 
     /// The same profile under the settings from which it was made: its file.
-    pub fn made_from(self, parameters: Vec<Parameter>) -> Self {
+    pub fn made_from(self, parameters: Vec<Setting>) -> Self {
         Self { parameters, ..self }
     }
 
@@ -323,7 +323,7 @@ impl Indenter for Profile {
     }
 
     /// The file, where there is one: a profile made of points in memory has no settings.
-    fn parameters(&self) -> Vec<Parameter> {
+    fn parameters(&self) -> Vec<Setting> {
         self.parameters.clone()
     }
 

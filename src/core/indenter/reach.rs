@@ -80,7 +80,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::super::{
-        Asperities, Asperity, Cone, Ellipsoid, FlatPunch, Parameter, Profile, Shifted, Sphere,
+        Asperities, Asperity, Cone, Ellipsoid, FlatPunch, Profile, Setting, Shifted, Sphere,
     };
     use super::*;
 
@@ -109,7 +109,7 @@ mod tests {
         fn shape(&self) -> &'static str {
             "offset"
         }
-        fn parameters(&self) -> Vec<Parameter> {
+        fn parameters(&self) -> Vec<Setting> {
             Vec::new()
         }
         fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {

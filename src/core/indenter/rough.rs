@@ -22,7 +22,7 @@ use std::ops::RangeInclusive;
 use num_complex::Complex;
 use rustfft::FftPlannerScalar;
 
-use super::{HeightMap, IndenterError, MapEdge, MapQuantity, Parameter, Value, positive_length};
+use super::{HeightMap, IndenterError, MapEdge, MapQuantity, Setting, Value, positive_length};
 
 /// Cells per side.
 pub(super) const CELLS: RangeInclusive<usize> = 8..=4096;
@@ -71,21 +71,21 @@ impl Roughness {
         Ok(map.made_from("rough", self.parameters()))
     }
 
-    fn parameters(&self) -> Vec<Parameter> {
+    fn parameters(&self) -> Vec<Setting> {
         let mut parameters = vec![
-            Parameter::new("cells", Value::Integer(self.cells as u64)),
-            Parameter::length("spacing", self.spacing_m),
-            Parameter::new("hurst_exponent", Value::Number(self.hurst_exponent)),
-            Parameter::length("rms_height", self.rms_height_m),
-            Parameter::length("cut_off_wavelength", self.cut_off_wavelength_m),
-            Parameter::new("seed", Value::Integer(self.seed)),
+            Setting::new("cells", Value::Integer(self.cells as u64)),
+            Setting::length("spacing", self.spacing_m),
+            Setting::new("hurst_exponent", self.hurst_exponent),
+            Setting::length("rms_height", self.rms_height_m),
+            Setting::length("cut_off_wavelength", self.cut_off_wavelength_m),
+            Setting::new("seed", Value::Integer(self.seed)),
             self.edge.parameter(),
         ];
         for (key, length_m) in [
             ("roll_off_wavelength", self.roll_off_wavelength_m),
             ("sphere_radius", self.sphere_radius_m),
         ] {
-            parameters.extend(length_m.map(|length_m| Parameter::length(key, length_m)));
+            parameters.extend(length_m.map(|length_m| Setting::length(key, length_m)));
         }
         parameters
     }

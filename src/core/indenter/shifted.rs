@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Domain, Indenter, IndenterError, Parameter, Rim, Value, finite_position};
+use super::{Domain, Indenter, IndenterError, Rim, Setting, Value, finite_position};
 use crate::quantity::Dimension;
 
 /// An indenter whose own origin lies at an offset.
@@ -50,11 +50,11 @@ impl Indenter for Shifted {
         self.inner.shape()
     }
 
-    fn parameters(&self) -> Vec<Parameter> {
+    fn parameters(&self) -> Vec<Setting> {
         let offset = vec![self.offset_x_m, self.offset_y_m];
         let mut parameters = self.inner.parameters();
         let offset = Value::Quantities(offset, Dimension::Length);
-        parameters.push(Parameter::new("offset", offset));
+        parameters.push(Setting::new("offset", offset));
         parameters
     }
 

@@ -1,6 +1,6 @@
 //! The sphere, in the small-slope (paraboloid) form on which Hertz contact rests: g = r^2 / (2 R).
 
-use super::{Axisymmetric, Indenter, IndenterError, Parameter, positive_length};
+use super::{Axisymmetric, Indenter, IndenterError, Setting, positive_length};
 
 /// A rigid sphere of radius R, as a paraboloid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,8 +27,8 @@ impl Indenter for Sphere {
         "sphere"
     }
 
-    fn parameters(&self) -> Vec<Parameter> {
-        vec![Parameter::length("radius", self.radius_m)]
+    fn parameters(&self) -> Vec<Setting> {
+        vec![Setting::length("radius", self.radius_m)]
     }
 
     fn tip_radius_m(&self) -> Option<f64> {

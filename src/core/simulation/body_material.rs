@@ -5,6 +5,7 @@ use crate::history::ComplianceFunction;
 use crate::material::interpolant::Interpolant;
 use crate::material::sampled::Sampled;
 use crate::material::{Creep, Material, MaterialError};
+use crate::quantity::setting::{Table, Value};
 use crate::sweep::plan::resolved;
 
 /// The material of a history.
@@ -137,16 +138,15 @@ impl BodyMaterial {
 
 fn samples_text(sampled: &Sampled) -> String {
     let table = sampled.table();
-    format!(
-        "[material]\n{}poisson_ratio = {:?}\n\n[material.table]\nquantity = \"{}\"\nmodulus = \"{}\"\n\
-         evaluation = \"direct\"\ntimes = {}\nvalues = {}\n",
-        resolved::entry("name", sampled.name().map(resolved::toml_string)),
-        sampled.poisson_ratio(),
-        table.face().name(),
-        table.kind().name(),
-        resolved::numbers(table.times_s().iter().copied()),
-        resolved::numbers(table.values().iter().copied())
-    )
+    let samples = Table::new("table")
+        .with("quantity", table.face().name())
+        .with("modulus", table.kind().name())
+        .with("evaluation", "direct")
+        .with("times", Value::Numbers(table.times_s().to_vec()))
+        .with("values", Value::Numbers(table.values().to_vec()));
+    let material = Table::new("material").with_some("name", sampled.name());
+    let material = material.with("poisson_ratio", sampled.poisson_ratio());
+    material.above([samples]).toml()
 }
 
 #[cfg(test)]

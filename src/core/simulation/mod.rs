@@ -440,7 +440,7 @@ mod tests {
 
     use super::*;
     use crate::drive::{Segment, SegmentedDrive};
-    use crate::indenter::{Axisymmetric, Indenter, Parameter, Sphere};
+    use crate::indenter::{Axisymmetric, Indenter, Setting, Sphere};
     use crate::material::library;
 
     use crate::simulation::follow::is_floating;
@@ -504,7 +504,7 @@ mod tests {
         fn shape(&self) -> &'static str {
             "cap"
         }
-        fn parameters(&self) -> Vec<Parameter> {
+        fn parameters(&self) -> Vec<Setting> {
             Vec::new()
         }
         fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {
@@ -541,7 +541,7 @@ mod tests {
         fn shape(&self) -> &'static str {
             self.0.shape()
         }
-        fn parameters(&self) -> Vec<Parameter> {
+        fn parameters(&self) -> Vec<Setting> {
             self.0.parameters()
         }
         fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {

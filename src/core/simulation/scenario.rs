@@ -6,11 +6,12 @@ use crate::drive::{Control, Segment, SegmentedDrive};
 use crate::engine::{EngineKind, SolverPlan};
 use crate::indenter::Indenter;
 use crate::quantity::Dimension;
+use crate::quantity::setting::{Setting, Table, Value, document};
 use crate::simulation::body_material::BodyMaterial;
 use crate::sweep::plan::check::{PlanError, check_count};
 use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::figures::FigurePlan;
-use crate::sweep::plan::resolved::{self, entry, numbers, quoted};
+use crate::sweep::plan::resolved::{drive_dimension, indenter_material_text, solver_table};
 
 /// Everything a simulation needs to know. Two equal plans give equal results, bit for bit.
 #[derive(Debug, Clone)]
@@ -117,94 +118,102 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
         error_bars,
     } = output;
     let material = &contact.material;
-    let solver_text = resolved::solver_text(solver, contact.indenter.as_ref());
-    let contact = contact.blocks(
-        material
-            .indenter_material()
-            .map(resolved::indenter_material_text),
-    );
-    let blocks = material.text() + &contact.layer + &contact.indenter;
-    let step =
-        step_s.map(|step_s| format!("\n[time]\nstep = {}\n", quoted(step_s, Dimension::Time)));
-    let times = |times_s: &[f64]| {
-        let times: Vec<String> = times_s
-            .iter()
-            .map(|t| quoted(*t, Dimension::Time))
-            .collect();
-        format!("[{}]", times.join(", "))
-    };
-    let cells = (solver.engine == EngineKind::Axisymmetric).then(|| field_cells.to_string());
-    [
-        resolved::opening_text(title, &blocks),
-        history_text(drive),
+    let solver = solver_table(solver, contact.indenter.as_ref());
+    let engine = plan.solver.engine;
+    let contact = contact.blocks(material.indenter_material().map(indenter_material_text));
+    let step = step_s.map(|step_s| Value::Quantity(step_s, Dimension::Time));
+    let time = Table::new("time").with_some("step", step).unless_empty();
+    let times = |times_s: &[f64]| Value::Quantities(times_s.to_vec(), Dimension::Time);
+    let has_own_cells = engine == EngineKind::HalfSpace;
+    let output = Table::new("output")
+        .with("profiles_at", times(profiles_at_s))
+        .with("fields_at", times(fields_at_s))
+        .with("error_bars", *error_bars)
+        .with_some("field_cells", (!has_own_cells).then_some(*field_cells));
+    let blocks = [
+        material.text(),
+        contact.layer,
+        contact.indenter,
+        history_table(drive).toml(),
         contact.adhesion,
-        step.unwrap_or_default(),
-        format!(
-            "\n[output]\nprofiles_at = {}\nfields_at = {}\nerror_bars = {error_bars}\n{}\n",
-            times(profiles_at_s),
-            times(fields_at_s),
-            entry("field_cells", cells)
-        ),
-        solver_text,
+        time.map_or(String::new(), |time| time.toml()),
+        output.toml(),
+        solver.toml(),
         figures.text(),
-    ]
-    .concat()
+    ];
+    document(title, blocks)
 }
 
-/// The `[drive]` block of a history, with an empty line before it.
-pub(crate) fn history_text(drive: &SegmentedDrive) -> String {
+/// The `[drive]` block of a history.
+pub(crate) fn history_table(drive: &SegmentedDrive) -> Table {
     let control = drive.control();
     let segments = drive.segments().iter();
-    let segments =
-        segments.map(|segment| format!("    {{ {} }},\n", segment_text(segment, control)));
-    format!(
-        "\n[drive]\ncontrol = \"{}\"\nsegments = [\n{}]\n",
-        control.name(),
-        segments.collect::<String>()
-    )
+    let segments = segments.map(|segment| segment_settings(segment, control));
+    Table::new("drive")
+        .with("control", control.name())
+        .with("segments", Value::Tables(segments.collect()))
 }
 
-/// The keys of a segment as they stand within the braces of an inline table.
-fn segment_text(segment: &Segment, control: Control) -> String {
-    let value = |value: f64| quoted(value, resolved::drive_dimension(control));
-    let time = |time_s: f64| quoted(time_s, Dimension::Time);
-    let list = |values: &[f64]| numbers(values.iter().copied());
-    match segment {
-        Segment::Step { to, duration_s } => format!(
-            "kind = \"step\", to = {}, duration = {}",
-            value(*to),
-            time(*duration_s)
+/// The keys of a segment.
+fn segment_settings(segment: &Segment, control: Control) -> Vec<Setting> {
+    let to = |value: f64| Value::Quantity(value, drive_dimension(control));
+    let time = |time_s: f64| Value::Quantity(time_s, Dimension::Time);
+    let (kind, settings) = match segment {
+        Segment::Step {
+            to: end,
+            duration_s,
+        } => (
+            "step",
+            vec![("to", to(*end)), ("duration", time(*duration_s))],
         ),
-        Segment::Ramp { to, duration_s } => format!(
-            "kind = \"ramp\", to = {}, duration = {}",
-            value(*to),
-            time(*duration_s)
+        Segment::Ramp {
+            to: end,
+            duration_s,
+        } => (
+            "ramp",
+            vec![("to", to(*end)), ("duration", time(*duration_s))],
         ),
         Segment::Polynomial {
             coefficients,
             duration_s,
-        } => format!(
-            "kind = \"polynomial\", coefficients = {}, duration = {}",
-            list(coefficients),
-            time(*duration_s)
+        } => (
+            "polynomial",
+            vec![
+                ("coefficients", Value::Numbers(coefficients.clone())),
+                ("duration", time(*duration_s)),
+            ],
         ),
         Segment::Sine {
             mean,
             amplitude,
-            angular_frequency_rad_per_s,
+            angular_frequency_rad_per_s: omega,
             phase_rad,
             cycles,
-        } => format!(
-            "kind = \"sine\", mean = {}, amplitude = {}, angular_frequency = {}, phase = {}, cycles = {cycles:?}",
-            value(*mean),
-            value(*amplitude),
-            quoted(*angular_frequency_rad_per_s, Dimension::AngularFrequency),
-            quoted(*phase_rad, Dimension::Angle)
+        } => (
+            "sine",
+            vec![
+                ("mean", to(*mean)),
+                ("amplitude", to(*amplitude)),
+                (
+                    "angular_frequency",
+                    Value::Quantity(*omega, Dimension::AngularFrequency),
+                ),
+                ("phase", Value::Quantity(*phase_rad, Dimension::Angle)),
+                ("cycles", (*cycles).into()),
+            ],
         ),
-        Segment::Table { times_s, values } => format!(
-            "kind = \"table\", times = {}, values = {}",
-            list(times_s),
-            list(values)
+        Segment::Table { times_s, values } => (
+            "table",
+            vec![
+                ("times", Value::Numbers(times_s.clone())),
+                ("values", Value::Numbers(values.clone())),
+            ],
         ),
-    }
+    };
+    let settings = settings
+        .into_iter()
+        .map(|(key, value)| Setting::new(key, value));
+    std::iter::once(Setting::new("kind", kind))
+        .chain(settings)
+        .collect()
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use toml::de::{DeFloat, DeInteger, DeTable, DeValue};
 
 use crate::input::diagnostic::{Location, Source};
-use crate::sweep::plan::resolved::toml_string;
+use crate::quantity::setting::toml_string;
 
 /// The entries of a table, by key.
 #[derive(Clone, Debug, Default)]

@@ -195,7 +195,7 @@ fn indenter(indenter: &dyn Indenter) -> Markup {
     let mut facts = Facts::default();
     facts.add("shape", indenter.shape());
     for parameter in indenter.parameters() {
-        let name = words::named(parameter.key);
+        let name = words::named(&parameter.key);
         match &parameter.value {
             Value::Tables(tables) => {
                 facts.add(&name, list(tables.iter().map(|table| words::row(table))));

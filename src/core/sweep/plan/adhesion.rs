@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 
 use crate::indenter::Indenter;
 use crate::quantity::Dimension;
-use crate::sweep::plan::resolved::quoted;
+use crate::quantity::setting::{Table, Value};
 
 /// Work of adhesion, and how near the surfaces come.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,17 +44,17 @@ impl AdhesionPlan {
         (radius_m * ratio * ratio / self.equilibrium_distance_m.powi(3)).cbrt()
     }
 
-    /// The `[adhesion]` block, with an empty line before it.
-    pub(crate) fn text(&self) -> String {
+    /// The `[adhesion]` block.
+    pub(crate) fn table(&self) -> Table {
         let Self {
             work_j_per_m2,
             equilibrium_distance_m,
         } = *self;
-        format!(
-            "\n[adhesion]\nwork = {}\nequilibrium_distance = {}\n",
-            quoted(work_j_per_m2, Dimension::EnergyPerArea),
-            quoted(equilibrium_distance_m, Dimension::Length)
-        )
+        let work = Value::Quantity(work_j_per_m2, Dimension::EnergyPerArea);
+        let distance = Value::Quantity(equilibrium_distance_m, Dimension::Length);
+        Table::new("adhesion")
+            .with("work", work)
+            .with("equilibrium_distance", distance)
     }
 }
 

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::indenter::Indenter;
+use crate::quantity::setting::Table;
 use crate::sweep::plan::adhesion::AdhesionPlan;
 use crate::sweep::plan::check::PlanError;
 use crate::sweep::plan::layer::LayerPlan;
@@ -55,10 +56,12 @@ impl<M> ContactPlan<M> {
             indenter,
             adhesion,
         } = self;
+        let block = Table::new("indenter").and(resolved::shape(indenter.as_ref()));
+        let below = indenter_material.map(|block| format!("\n{block}"));
         ContactBlocks {
-            layer: layer.map_or(String::new(), |layer| layer.text()),
-            indenter: resolved::indenter_text(indenter.as_ref(), indenter_material),
-            adhesion: adhesion.map_or(String::new(), |adhesion| adhesion.text()),
+            layer: layer.map_or(String::new(), |layer| layer.table().toml()),
+            indenter: block.toml() + &below.unwrap_or_default(),
+            adhesion: adhesion.map_or(String::new(), |adhesion| adhesion.table().toml()),
         }
     }
 }

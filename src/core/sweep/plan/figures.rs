@@ -1,7 +1,8 @@
 //! How the figures of a sweep or scenario are to look: the `[figures]` table. It is kept with the resolved file and is no part
 //! of its hash: figures drawn in another way are of the same sweep.
 
-use crate::quantity::{Dimension, FrequencyUnit, format_si};
+use crate::quantity::setting::{Table, Value};
+use crate::quantity::{Dimension, FrequencyUnit};
 
 /// What the `[figures]` table asks for. Where it asks for nothing, figures are 800 px wide with text of 16 px (211.7 mm and 12 pt
 /// on a screen of 96 dpi), as SVG and as PNG of one and of two pixels per px; PDF is there to be asked for.
@@ -71,51 +72,33 @@ impl Default for FigurePlan {
 }
 
 impl FigurePlan {
-    /// The table as it stands at the end of a resolved file: what differs from the default, nothing where nothing does.
+    /// The table at the end of a resolved file: what differs from the default, nothing where nothing does.
     pub fn text(&self) -> String {
         let default = Self::default();
-        let list =
-            |items: Vec<String>| (!items.is_empty()).then(|| format!("[{}]", items.join(", ")));
-        let length = |value: f64| format!("\"{}\"", format_si(value, Dimension::Length));
-        let omega = |w: &f64| format!("\"{}\"", format_si(*w, Dimension::AngularFrequency));
-        let named = |format: &Format| {
-            let (name, _) = Format::NAMES.iter().find(|(_, f)| f == format)?;
-            Some(format!("\"{name}\""))
-        };
-        let formats = self
-            .formats
-            .iter()
-            .filter(|_| self.formats != default.formats);
-        let other = |is_other: bool, value: &str| is_other.then(|| value.to_owned());
-        let lines = [
-            (
-                "loops",
-                list(self.loops_rad_per_s.iter().map(omega).collect()),
-            ),
-            ("width", self.width_m.map(length)),
-            ("height", self.height_m.map(length)),
-            (
-                "font_size",
-                self.font_size_pt.map(|size| format!("{size:?}")),
-            ),
-            ("formats", list(formats.filter_map(named).collect())),
-            ("dpi", self.dpi.map(|dpi| dpi.to_string())),
-            (
-                "axes",
-                other(self.axes == AxisUnits::Normalised, "\"normalised\""),
-            ),
-            (
-                "frequency_unit",
-                other(self.frequency_unit == FrequencyUnit::Hz, "\"Hz\""),
-            ),
-            ("titles", other(!self.titles, "false")),
-        ];
-        let line = |(key, value): (&str, Option<String>)| Some(format!("{key} = {}\n", value?));
-        let lines: String = lines.into_iter().filter_map(line).collect();
-        match lines.is_empty() {
-            true => lines,
-            false => format!("\n[figures]\n{lines}"),
-        }
+        let length = |value_m: f64| Value::Quantity(value_m, Dimension::Length);
+        let loops = (!self.loops_rad_per_s.is_empty())
+            .then(|| Value::Quantities(self.loops_rad_per_s.clone(), Dimension::AngularFrequency));
+        let named = |format: &Format| Format::NAMES.iter().find(|(_, other)| other == format);
+        let formats = self.formats.iter().filter_map(named);
+        let formats = Value::Texts(formats.map(|(name, _)| (*name).to_owned()).collect());
+        let is_normalised = self.axes == AxisUnits::Normalised;
+        let is_in_hz = self.frequency_unit == FrequencyUnit::Hz;
+        let table = Table::new("figures")
+            .with_some("loops", loops)
+            .with_some("width", self.width_m.map(length))
+            .with_some("height", self.height_m.map(length))
+            .with_some("font_size", self.font_size_pt)
+            .with_some(
+                "formats",
+                (self.formats != default.formats).then_some(formats),
+            )
+            .with_some("dpi", self.dpi)
+            .with_some("axes", is_normalised.then_some("normalised"))
+            .with_some("frequency_unit", is_in_hz.then_some("Hz"))
+            .with_some("titles", (!self.titles).then_some(false));
+        table
+            .unless_empty()
+            .map_or(String::new(), |table| table.toml())
     }
 }
 
@@ -141,7 +124,7 @@ mod tests {
     fn a_table_is_written_line_by_line() {
         assert_eq!(FigurePlan::default().text(), "");
         let sweep = "title = \"a\"\n\n[solver]\ncells = 3\n";
-        let whole = format!("{sweep}{}", everything().text());
+        let whole = format!("{sweep}\n{}", everything().text());
         assert_eq!(
             &whole[sweep.len()..],
             "\n[figures]\nloops = [\"0.001 rad/s\", \"0.1 rad/s\"]\nwidth = \"0.085 m\"\nheight = \"0.06 m\"\nfont_size = 7.0\n\

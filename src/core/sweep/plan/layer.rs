@@ -5,9 +5,9 @@
 
 use crate::contact::half_space::layer::{Base, Layer, YieldingBase};
 use crate::engine::EngineError;
+use crate::quantity::setting::{Table, Value};
 use crate::quantity::{Dimension, format_human};
 use crate::sweep::plan::check::{PlanError, check_positive};
-use crate::sweep::plan::resolved::{entry, quoted};
 
 /// A layer of the plan's material on a base.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,21 +45,24 @@ impl LayerPlan {
         Ok(Some(plan.of_material(poisson_ratio)))
     }
 
-    /// The `[layer]` block, with an empty line before it.
-    pub(crate) fn text(&self) -> String {
+    /// The `[layer]` block.
+    pub(crate) fn table(&self) -> Table {
         let Self {
             thickness_m,
             base,
             yielding,
-        } = self;
-        let ratio = |of: fn(YieldingBase) -> f64| yielding.map(|base| format!("{:?}", of(base)));
-        format!(
-            "\n[layer]\nthickness = {}\nbase = \"{}\"\n{}{}",
-            quoted(*thickness_m, Dimension::Length),
-            base.name(),
-            entry("base_modulus_ratio", ratio(|base| base.modulus_ratio)),
-            entry("base_poisson_ratio", ratio(|base| base.poisson_ratio))
-        )
+        } = *self;
+        Table::new("layer")
+            .with("thickness", Value::Quantity(thickness_m, Dimension::Length))
+            .with("base", base.name())
+            .with_some(
+                "base_modulus_ratio",
+                yielding.map(|base| base.modulus_ratio),
+            )
+            .with_some(
+                "base_poisson_ratio",
+                yielding.map(|base| base.poisson_ratio),
+            )
     }
 
     /// How it lies, in words, without a modulus of the base that an axis varies.

@@ -7,11 +7,12 @@ use sha2::{Digest, Sha256};
 
 use crate::drive::{Control, HarmonicDrive};
 use crate::engine::SolverPlan;
-use crate::indenter::{Indenter, Parameter, Value};
+use crate::indenter::Indenter;
 use crate::material::Material;
-use crate::quantity::{Dimension, format_si};
-pub(crate) use crate::sweep::plan::material_text::compressibility_line;
-use crate::sweep::plan::material_text::text_over_temperatures;
+use crate::quantity::Dimension;
+use crate::quantity::setting::{Setting, Table, Value, document};
+pub(crate) use crate::sweep::plan::material_text::compressibility;
+use crate::sweep::plan::material_text::{material_table, table_over_temperatures};
 pub use crate::sweep::plan::material_text::{material_text, material_text_without_poisson_ratio};
 use crate::sweep::plan::{Axes, AxisValue, Block, Condition, CyclePlan, SweepPlan, Varied};
 
@@ -29,88 +30,76 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         figures,
     } = plan;
     let (contact, axes) = (&base.contact, axes.as_ref());
-    let solver = solver_text(solver, contact.indenter.as_ref());
+    let solver = solver_table(solver, contact.indenter.as_ref());
     let given = axes.map(|axes| &axes.given_blocks);
     let is_listed = |block| axes.is_some_and(|axes| axes.whole(block).is_some());
-    let mut blocks = match given.and_then(|given| given.material.as_deref()) {
+    let material = match given.and_then(|given| given.material.as_deref()) {
         _ if is_listed(Block::Material) => String::new(),
-        Some(block) => block.to_owned(),
+        Some(block) => block.trim_start().to_owned(),
         None => {
             let conditions = axes.iter().flat_map(|axes| &axes.conditions);
-            material_of(&contact.material, conditions, axes)
+            material_of(&contact.material, conditions, axes).toml()
         }
     };
     let indenter_material = match given.and_then(|given| given.indenter_material.as_deref()) {
         Some(block) => Some(block.to_owned()),
-        None => contact
-            .material
-            .indenter_material()
-            .map(indenter_material_text),
+        None => (contact.material.indenter_material()).map(indenter_material_text),
     };
-    let contact = contact.blocks(indenter_material);
-    blocks.push_str(&contact.layer);
-    if !is_listed(Block::Indenter) {
-        blocks.push_str(&contact.indenter);
+    let mut contact = contact.blocks(indenter_material);
+    if is_listed(Block::Indenter) {
+        contact.indenter.clear();
     }
-    let each = angular_frequencies_rad_per_s.iter();
-    let each = each.map(|omega| quoted(*omega, Dimension::AngularFrequency));
-    let frequencies: String = each.map(|omega| format!("    {omega},\n")).collect();
+    let frequencies = angular_frequencies_rad_per_s.clone();
+    let frequencies = Value::QuantityLines(frequencies, Dimension::AngularFrequency);
+    let sweep = Table::new("sweep")
+        .and(axes.map(numbers).into_iter().flatten())
+        .with_some("refine", refine.then_some(true))
+        .with("angular_frequency", frequencies);
     let listed = axes.iter().flat_map(|axes| axes.over.iter().enumerate());
-    let listed = listed.map(|(axis, varied)| listed_text(plan, axis, varied));
-    [
-        opening_text(title, &blocks),
-        drive_text(&base.drive),
-        format!("\n{}\n[sweep]\n", contact.adhesion),
-        axes.map(numbers_text).unwrap_or_default(),
-        entry("refine", refine.then(|| "true".to_owned())),
-        format!("angular_frequency = [\n{frequencies}]\n\n"),
-        listed.collect(),
-        cycle_text(cycle),
-        format!("\n{}", solver),
-        figures.text(),
-    ]
-    .concat()
+    let listed = listed.flat_map(|(axis, varied)| listed_blocks(plan, axis, varied));
+    let opening = [material, contact.layer, contact.indenter];
+    let drive = [drive_table(&base.drive).toml(), contact.adhesion];
+    let settings = [cycle_table(cycle).toml(), solver.toml(), figures.text()];
+    let blocks = opening.into_iter().chain(drive).chain([sweep.toml()]);
+    document(title, blocks.chain(listed).chain(settings))
 }
 
 /// The axes over numbers, as keys of `[sweep]`.
-fn numbers_text(axes: &Axes) -> String {
+fn numbers(axes: &Axes) -> Vec<Setting> {
     let over = axes.over.iter().enumerate();
     let over = over.filter(|(_, varied)| !varied.is_whole());
-    let lines = over.map(|(axis, varied)| {
-        let number = |value: f64| match varied.dimension {
-            Some(dimension) => quoted(value, dimension),
-            None => format!("{value:?}"),
+    let numbers = over.map(|(axis, varied)| {
+        let numbers = axes.numbers_of(axis);
+        let values = match varied.dimension {
+            Some(dimension) => Value::Quantities(numbers, dimension),
+            None => Value::Numbers(numbers),
         };
-        let values: Vec<String> = axes.numbers_of(axis).into_iter().map(number).collect();
         // Beside a list of blocks the key would be one of a table in its place.
-        let quote = match varied.is_nested() || axes.whole(varied.block).is_some() {
-            true => "\"",
-            false => "",
-        };
-        format!(
-            "{quote}{}{quote} = [{}]\n",
-            varied.path(),
-            values.join(", ")
-        )
+        match varied.is_nested() || axes.whole(varied.block).is_some() {
+            true => Setting::new(format!("\"{}\"", varied.path()), values),
+            false => Setting::new(varied.path(), values),
+        }
     });
-    lines.collect::<String>() + &entry("pairs", axes.pairs.then(|| "true".to_owned()))
+    let pairs = axes.pairs.then(|| Setting::new("pairs", true));
+    numbers.chain(pairs).collect()
 }
 
-/// The `[drive]` block of an oscillation, with an empty line before it and no line end behind it.
-pub(crate) fn drive_text(drive: &HarmonicDrive) -> String {
+/// The `[drive]` block of an oscillation.
+pub(crate) fn drive_table(drive: &HarmonicDrive) -> Table {
     let dimension = drive_dimension(drive.control());
-    format!(
-        "\n[drive]\ncontrol = \"{}\"\nmean = {}\namplitude = {}\nphase = {}\nhold = {}",
-        drive.control().name(),
-        quoted(drive.mean(), dimension),
-        quoted(drive.amplitude(), dimension),
-        quoted(drive.phase_rad(), Dimension::Angle),
-        quoted(drive.hold_s(), Dimension::Time)
-    )
+    Table::new("drive")
+        .with("control", drive.control().name())
+        .with("mean", Value::Quantity(drive.mean(), dimension))
+        .with("amplitude", Value::Quantity(drive.amplitude(), dimension))
+        .with(
+            "phase",
+            Value::Quantity(drive.phase_rad(), Dimension::Angle),
+        )
+        .with("hold", Value::Quantity(drive.hold_s(), Dimension::Time))
 }
 
 /// The `[cycle]` block.
-pub(crate) fn cycle_text(cycle: &CyclePlan) -> String {
+pub(crate) fn cycle_table(cycle: &CyclePlan) -> Table {
     let CyclePlan {
         steps,
         method,
@@ -119,14 +108,15 @@ pub(crate) fn cycle_text(cycle: &CyclePlan) -> String {
         at_cycle,
         error_bars,
         accuracy,
-    } = cycle;
-    format!(
-        "[cycle]\nsteps = {steps}\nmethod = \"{}\"\ntolerance = {tolerance:e}\nmax_cycles = {max_cycles}\n{}error_bars = \
-         {error_bars}\n{}",
-        method.name(),
-        entry("at_cycle", at_cycle.map(|cycle| cycle.to_string())),
-        entry("accuracy", accuracy.map(|accuracy| format!("{accuracy:e}")))
-    )
+    } = *cycle;
+    Table::new("cycle")
+        .with("steps", steps)
+        .with("method", method.name())
+        .with("tolerance", Value::Tolerance(tolerance))
+        .with("max_cycles", max_cycles)
+        .with_some("at_cycle", at_cycle)
+        .with("error_bars", error_bars)
+        .with_some("accuracy", accuracy.map(Value::Tolerance))
 }
 
 /// The `[indenter.material]` block.
@@ -134,13 +124,7 @@ pub(crate) fn indenter_material_text(material: &Material) -> String {
     // Only the material of the body has alternatives in a file.
     let mut own = material.clone();
     own.origin.alternatives.clear();
-    let moved = |line: &str| match line.split_once("[material") {
-        // A header, and not a name with these letters.
-        Some((brackets @ ("" | "["), rest)) => format!("{brackets}[indenter.material{rest}"),
-        _ => line.to_owned(),
-    };
-    let text = material_text(&own);
-    text.split('\n').map(moved).collect::<Vec<_>>().join("\n")
+    material_table(&own).toml_below("indenter")
 }
 
 /// The material of a block under these conditions: at each temperature, where that varies.
@@ -148,92 +132,60 @@ fn material_of<'a>(
     own: &Material,
     conditions: impl Iterator<Item = &'a Condition>,
     axes: Option<&Axes>,
-) -> String {
+) -> Table {
     match axes.is_some_and(|axes| axes.over.iter().any(Varied::is_temperature)) {
-        true => text_over_temperatures(conditions.map(|condition| &*condition.contact.material)),
-        false => material_text(own),
+        true => table_over_temperatures(conditions.map(|condition| &*condition.contact.material)),
+        false => material_table(own),
     }
 }
 
-/// The blocks of a list, each under its name; nothing of an axis over a number.
-fn listed_text(plan: &SweepPlan, axis: usize, varied: &Varied) -> String {
+/// The blocks of a list, each under its name; none of an axis over a number.
+fn listed_blocks(plan: &SweepPlan, axis: usize, varied: &Varied) -> Vec<String> {
     let conditions = plan.conditions();
-    let mut text = String::new();
-    for (place, name) in varied.names.iter().enumerate() {
+    let names = varied.names.iter().enumerate();
+    let block = names.filter_map(|(place, name)| {
         let is_meant = |c: &&Condition| c.values.get(axis) == Some(AxisValue::Block(place));
         let under = || conditions.iter().filter(is_meant);
         // Pairs and combinations have every block.
-        let Some(first) = under().next() else {
-            continue;
-        };
-        let (block, name) = match varied.block {
+        let first = &under().next()?.contact;
+        let block = match varied.block {
             Block::Indenter => {
-                let indenter_material = first
-                    .contact
-                    .material
-                    .indenter_material()
-                    .map(indenter_material_text);
-                let block = indenter_text(first.contact.indenter.as_ref(), indenter_material);
-                (block, Some(toml_string(name)))
+                let mut own = first.material.indenter_material().cloned();
+                own.iter_mut()
+                    .for_each(|own| own.origin.alternatives.clear());
+                let named = Table::new("indenter").with("name", &**name);
+                let own = own.as_ref().map(material_table);
+                named.and(shape(first.indenter.as_ref())).above(own)
             }
-            _ => (
-                material_of(&first.contact.material, under(), plan.axes.as_ref()),
-                None,
-            ),
+            _ => material_of(&first.material, under(), plan.axes.as_ref()),
         };
-        let own = varied.block.name();
-        let lines = block.trim_start().lines().skip(1);
-        let lines = lines.map(|line| match line.starts_with('[') {
-            true => line.replacen(own, &format!("sweep.{own}"), 1) + "\n",
-            false => format!("{line}\n"),
-        });
-        let lines: String = lines.collect();
-        text += &format!("[[sweep.{own}]]\n{}{lines}\n", entry("name", name));
-    }
-    text
+        Some(block.listed().toml_below("sweep"))
+    });
+    block.collect()
 }
 
-/// What sweeps and scenarios have in common at their beginning: title, and the blocks of material and indenter.
-pub(crate) fn opening_text(title: &str, blocks: &str) -> String {
-    let title = toml_string(title);
-    match blocks.trim_start() {
-        "" => format!("title = {title}\n"),
-        blocks => format!("title = {title}\n\n{blocks}"),
-    }
+/// Shape and settings of an indenter.
+pub(crate) fn shape(indenter: &dyn Indenter) -> Vec<Setting> {
+    let mut settings = vec![Setting::new("shape", indenter.shape())];
+    settings.extend(indenter.parameters());
+    settings
 }
 
-/// The `[indenter]` block and that of what it is made of, with an empty line before each.
-pub(crate) fn indenter_text(indenter: &dyn Indenter, indenter_material: Option<String>) -> String {
-    let parameters = indenter.parameters();
-    let parameters = parameters
-        .iter()
-        .map(|p| format!("{}\n", parameter_text(p)));
-    let of_indenter = indenter_material.map(|block| format!("\n{block}"));
-    format!(
-        "\n[indenter]\nshape = \"{}\"\n{}{}",
-        indenter.shape(),
-        parameters.collect::<String>(),
-        of_indenter.unwrap_or_default()
-    )
-}
-
-/// The `[solver]` block, at the end of both.
-pub(crate) fn solver_text(solver: &SolverPlan, indenter: &dyn Indenter) -> String {
+/// The `[solver]` block.
+pub(crate) fn solver_table(solver: &SolverPlan, indenter: &dyn Indenter) -> Table {
     let SolverPlan {
         engine,
         cells,
         springs,
         time_rule,
         tolerance,
-    } = solver;
-    let cells = indenter.own_cells().is_none().then(|| cells.to_string());
-    format!(
-        "[solver]\nengine = \"{}\"\n{}springs = {springs}\n{}time_rule = \"{}\"\n",
-        engine.name(),
-        entry("cells", cells),
-        entry("tolerance", tolerance.map(|t| format!("{t:e}"))),
-        time_rule.name()
-    )
+    } = *solver;
+    Table::new("solver")
+        .with("engine", engine.name())
+        .with_some("cells", indenter.own_cells().is_none().then_some(cells))
+        .with("springs", springs)
+        .with_some("tolerance", tolerance.map(Value::Tolerance))
+        .with("time_rule", time_rule.name())
 }
 
 /// What kind of quantity a drive's values are.
@@ -242,29 +194,6 @@ pub fn drive_dimension(control: Control) -> Dimension {
         Control::Load => Dimension::Force,
         Control::Approach => Dimension::Length,
     }
-}
-
-/// A setting of the indenter as TOML.
-fn parameter_text(parameter: &Parameter) -> String {
-    let value = match &parameter.value {
-        Value::Quantity(value, dimension) => quoted(*value, *dimension),
-        Value::Quantities(values, dimension) => {
-            let values: Vec<String> = values.iter().map(|&v| quoted(v, *dimension)).collect();
-            format!("[{}]", values.join(", "))
-        }
-        // Debug keeps the decimal point that TOML asks of a float.
-        Value::Number(number) => format!("{number:?}"),
-        Value::Integer(integer) => integer.to_string(),
-        Value::Text(text) => toml_string(text),
-        Value::Tables(tables) => {
-            let row = |table: &Vec<Parameter>| {
-                let entries: Vec<String> = table.iter().map(parameter_text).collect();
-                format!("    {{ {} }},\n", entries.join(", "))
-            };
-            format!("[\n{}]", tables.iter().map(row).collect::<String>())
-        }
-    };
-    format!("{} = {value}", parameter.key)
 }
 
 /// SHA-256 of the values of a resolved file that make it the one that it is, in hexadecimal; of what is no TOML that of its text.
@@ -314,28 +243,6 @@ pub fn hash_of_bytes(bytes: &[u8]) -> String {
     hash
 }
 
-/// A line with a key, where there is a value.
-pub(crate) fn entry(key: &str, value: Option<String>) -> String {
-    value.map_or(String::new(), |value| format!("{key} = {value}\n"))
-}
-
-/// A quantity as TOML.
-pub(crate) fn quoted(value: f64, dimension: Dimension) -> String {
-    format!("\"{}\"", format_si(value, dimension))
-}
-
-/// A list of bare numbers as TOML.
-pub(crate) fn numbers(values: impl Iterator<Item = f64>) -> String {
-    // `{:?}` writes a float as TOML reads it, with a point or an exponent, and loses no bit.
-    let values: Vec<String> = values.map(|value| format!("{value:?}")).collect();
-    format!("[{}]", values.join(", "))
-}
-
-/// A TOML basic string.
-pub fn toml_string(text: &str) -> String {
-    toml::Value::String(text.to_owned()).to_string()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -349,7 +256,7 @@ mod tests {
             titles: false,
             ..FigurePlan::default()
         };
-        let whole = format!("{sweep}{}", figures.text());
+        let whole = format!("{sweep}\n{}", figures.text());
         assert!(whole.contains("[figures]"));
         assert_eq!(identity(&whole), identity(sweep));
         assert_eq!(hash(&whole), hash(sweep));
