@@ -35,7 +35,7 @@ pub(crate) enum TableMaterial {
 pub(crate) fn read(table: &mut TableReader<'_>, direct_sum: DirectSum) -> Option<TableMaterial> {
     let problems = table.problems();
     let source = table.one_of(&[(&FILE, true), (&TIMES, false)]);
-    let (face, kind) = (table.value(&QUANTITY), table.value(&TABLE_MODULUS));
+    let (function, kind) = (table.value(&QUANTITY), table.value(&TABLE_MODULUS));
     let (evaluation, flow) = (table.read(&EVALUATION), table.read(&FLOW));
     if let Some(asked) = &evaluation
         && asked.value == Evaluation::Direct
@@ -57,8 +57,8 @@ pub(crate) fn read(table: &mut TableReader<'_>, direct_sum: DirectSum) -> Option
         table.has(&VALUES);
     }
     let data = match source? {
-        true => from_file(table, face, kind),
-        false => written_out(table, face, kind),
+        true => from_file(table, function, kind),
+        false => written_out(table, function, kind),
     };
     // A problem with one of them was reported.
     let (data, evaluation, flow) = (data?, evaluation?.value, flow?);
@@ -90,12 +90,12 @@ pub(crate) fn read(table: &mut TableReader<'_>, direct_sum: DirectSum) -> Option
 
 fn from_file(
     table: &mut TableReader<'_>,
-    face: Option<MaterialFunction>,
+    function: Option<MaterialFunction>,
     kind: Option<ModulusKind>,
 ) -> Option<Located<Tabulated>> {
     let file = table.read(&FILE);
-    let (file, face, kind) = (file?, face?, kind?);
-    let parse = |name: &str, bytes: &[u8]| table_file::parse(name, bytes, face, kind);
+    let (file, function, kind) = (file?, function?, kind?);
+    let parse = |name: &str, bytes: &[u8]| table_file::parse(name, bytes, function, kind);
     let data = data_file::made_of(&file, table.folder(), table.problems(), parse)?;
     Some(file.map(|_| data))
 }
@@ -103,23 +103,23 @@ fn from_file(
 /// Samples in the file itself: `times` and `values`, as a resolved scenario has them.
 fn written_out(
     table: &mut TableReader<'_>,
-    face: Option<MaterialFunction>,
+    function: Option<MaterialFunction>,
     kind: Option<ModulusKind>,
 ) -> Option<Located<Tabulated>> {
     let times = table.read(&TIMES);
-    let Some(face) = face else {
+    let Some(function) = function else {
         // Without the quantity it is not known what the values are; the key is in its place all the same.
         table.has(&VALUES);
         return None;
     };
-    let dimension = match face {
+    let dimension = match function {
         MaterialFunction::Creep => Dimension::Compliance,
         MaterialFunction::Relaxation => Dimension::Stress,
     };
     let values = table.read(&VALUES.of(dimension));
     let (times, values, kind) = (times?, values?, kind?);
     match Tabulated::new(
-        face,
+        function,
         kind,
         plain(times.value.clone()),
         plain(values.value.clone()),

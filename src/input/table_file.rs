@@ -26,8 +26,8 @@ const TIMES: Column = Column {
 };
 
 /// The column of a quantity: `E` is no shear modulus, and `G` is nothing else.
-fn values_of(face: MaterialFunction, kind: ModulusKind) -> Column {
-    let (names, dimension): (&[&str], _) = match (face, kind) {
+fn values_of(function: MaterialFunction, kind: ModulusKind) -> Column {
+    let (names, dimension): (&[&str], _) = match (function, kind) {
         (MaterialFunction::Creep, _) => (
             &[
                 "creep_compliance",
@@ -51,8 +51,8 @@ fn values_of(face: MaterialFunction, kind: ModulusKind) -> Column {
     Column::new(names, dimension, "values")
 }
 
-fn other(face: MaterialFunction) -> (&'static str, MaterialFunction) {
-    match face {
+fn other(function: MaterialFunction) -> (&'static str, MaterialFunction) {
+    match function {
         MaterialFunction::Creep => QUANTITIES[1],
         MaterialFunction::Relaxation => QUANTITIES[0],
     }
@@ -64,10 +64,10 @@ fn other(face: MaterialFunction) -> (&'static str, MaterialFunction) {
 /// The file cannot be opened, or [`parse`] refuses it.
 pub(crate) fn read(
     path: &Path,
-    face: MaterialFunction,
+    function: MaterialFunction,
     kind: ModulusKind,
 ) -> Result<Tabulated, Diagnostics> {
-    tabulated(&DataFile::read(path)?, face, kind)
+    tabulated(&DataFile::read(path)?, function, kind)
 }
 
 /// Reads a table from the bytes of a file that messages call `name`.
@@ -77,20 +77,20 @@ pub(crate) fn read(
 pub(crate) fn parse(
     name: &str,
     bytes: &[u8],
-    face: MaterialFunction,
+    function: MaterialFunction,
     kind: ModulusKind,
 ) -> Result<Tabulated, Diagnostics> {
-    tabulated(&DataFile::from_bytes(name, bytes)?, face, kind)
+    tabulated(&DataFile::from_bytes(name, bytes)?, function, kind)
 }
 
 fn tabulated(
     file: &DataFile,
-    face: MaterialFunction,
+    function: MaterialFunction,
     kind: ModulusKind,
 ) -> Result<Tabulated, Diagnostics> {
-    let values = values_of(face, kind);
+    let values = values_of(function, kind);
     if !file.has_any(&[values])
-        && let Some(help) = meant_for(file, face, kind)
+        && let Some(help) = meant_for(file, function, kind)
     {
         let message = format!("no column `{}`", values.name_in_si());
         return Err(Diagnostic::at(&file.first_line(), message)
@@ -107,40 +107,40 @@ fn tabulated(
         "write it as `1.5e-9`, or leave the cell empty where the number is missing",
     )?;
     let (times_s, numbers) = (table.column(0), table.column(1));
-    let made = Tabulated::new(face, kind, times_s, numbers);
+    let made = Tabulated::new(function, kind, times_s, numbers);
     let made = made.map(|data| data.with_rows_passed_over(table.passed_over()));
     made.map_err(|error| {
         let place = error
             .place()
             .map(|(row, column)| table.cell(row - 1, usize::from(column == TableColumn::Value)));
-        explain(&place.unwrap_or(table.whole()), &error, face).into()
+        explain(&place.unwrap_or(table.whole()), &error, function).into()
     })
 }
 
 /// What a table is for that has the column of the other quantity, or of the other modulus.
-fn meant_for(file: &DataFile, face: MaterialFunction, kind: ModulusKind) -> Option<String> {
-    let (word, other_face) = other(face);
+fn meant_for(file: &DataFile, function: MaterialFunction, kind: ModulusKind) -> Option<String> {
+    let (word, other_function) = other(function);
     let other_kind = match kind {
         ModulusKind::Longitudinal => ModulusKind::Shear,
         ModulusKind::Shear => ModulusKind::Longitudinal,
     };
-    if file.has_any(&[values_of(face, other_kind)]) {
+    if file.has_any(&[values_of(function, other_kind)]) {
         return Some(format!(
             "its column is a {0} modulus: say \"{0}\"",
             other_kind.name()
         ));
     }
-    let of_kind = [kind, other_kind].map(|kind| values_of(other_face, kind));
+    let of_kind = [kind, other_kind].map(|kind| values_of(other_function, kind));
     file.has_any(&of_kind)
         .then(|| format!("the table holds the quantity \"{word}\": say so"))
 }
 
 /// What the material module refuses, at its place in the file.
-fn explain(place: &Location, error: &TableError, face: MaterialFunction) -> Diagnostic {
+fn explain(place: &Location, error: &TableError, function: MaterialFunction) -> Diagnostic {
     let diagnostic = Diagnostic::at(place, error.to_string());
     match error {
         TableError::Reversal { .. } | TableError::Trend { .. } => {
-            let (word, _) = other(face);
+            let (word, _) = other(function);
             diagnostic.help(format!(
                 "check units and columns; if the values are of the other quantity, say \"{word}\""
             ))

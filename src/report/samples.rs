@@ -8,7 +8,7 @@ use crate::quantity::{Dimension, format_human};
 /// That there was no fit, what is odd about the samples, and where a history of this length (s) leaves them.
 pub fn text(sampled: &Sampled, duration_s: f64) -> String {
     let table = sampled.table();
-    let name = match table.face() {
+    let name = match table.function() {
         MaterialFunction::Creep => "creep compliance",
         MaterialFunction::Relaxation => "relaxation modulus",
     };

@@ -42,9 +42,9 @@ fn times() -> Vec<f64> {
         .collect()
 }
 
-fn csv(face: MaterialFunction) -> String {
+fn csv(function: MaterialFunction) -> String {
     let material = pmma();
-    let (column, value): (_, &dyn Fn(f64) -> f64) = match face {
+    let (column, value): (_, &dyn Fn(f64) -> f64) = match function {
         MaterialFunction::Creep => ("creep_compliance_per_pa", &|t| {
             material.creep().compliance(t)
         }),
@@ -91,11 +91,11 @@ modulus = "longitudinal"
 #[test]
 fn the_printed_block_is_a_material_block_with_exact_numbers() {
     let folder = TempDir::new().unwrap();
-    for (face, quantity) in [
+    for (function, quantity) in [
         (MaterialFunction::Creep, "creep"),
         (MaterialFunction::Relaxation, "relaxation"),
     ] {
-        write(folder.path(), "data.csv", &csv(face));
+        write(folder.path(), "data.csv", &csv(function));
         let out = folder.path().join(quantity);
         let assert = program()
             .current_dir(folder.path())
@@ -132,12 +132,12 @@ fn the_printed_block_is_a_material_block_with_exact_numbers() {
         let sweep = format!("title = \"pasted\"\n{block}{REST}");
         let plan = sweep_file::plan(&Document::parse("sweep.toml", &sweep).unwrap()).unwrap();
         let table = {
-            let rows = csv(face);
+            let rows = csv(function);
             let rows = rows.lines().skip(1).map(|row| row.split_once(',').unwrap());
             let (times, values) = rows
                 .map(|(t, v)| (t.parse::<f64>().unwrap(), v.parse::<f64>().unwrap()))
                 .unzip();
-            Tabulated::new(face, pmma().kind(), times, values).unwrap()
+            Tabulated::new(function, pmma().kind(), times, values).unwrap()
         };
         let expected = fit(&table, None).unwrap().material(0.38).unwrap();
         assert_eq!(plan.base.contact.material.creep(), expected.creep());
@@ -458,16 +458,16 @@ fn under_a_pressure_the_surface_of_noisy_samples_is_never_displaced_outwards() {
         state = state * 48_271 % 2_147_483_647;
         state as f64 / 2_147_483_647.0
     };
-    for face in [MaterialFunction::Creep, MaterialFunction::Relaxation] {
+    for function in [MaterialFunction::Creep, MaterialFunction::Relaxation] {
         let material = pmma();
         let values = times().into_iter().map(|t| {
-            let value = match face {
+            let value = match function {
                 MaterialFunction::Creep => material.creep().compliance(t),
                 MaterialFunction::Relaxation => material.relaxation().unwrap().modulus(t),
             };
             value * (1.0 + 0.06 * (uniform() - 0.5))
         });
-        let table = Tabulated::new(face, material.kind(), times(), values.collect()).unwrap();
+        let table = Tabulated::new(function, material.kind(), times(), values.collect()).unwrap();
         let contact = table.contact_compliance(0.38).unwrap();
         for rule in [TimeRule::Linear, TimeRule::Constant] {
             // Pressures that come and go, all of them within the steps of the noise.

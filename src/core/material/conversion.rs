@@ -299,7 +299,7 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// The functions of two faces of one material agree to the rounding of their sums: up to 31
+    /// The two functions of one material agree to the rounding of their sums: up to 31
     /// positive terms with a few roundings each. The largest difference seen is 6e-15.
     const FUNCTION_TOLERANCE: f64 = 5e-14;
 

@@ -113,7 +113,7 @@ pub struct Fit {
     report: FitReport,
 }
 
-/// The series, of the face and kind of the table.
+/// The series, of the function and kind of the table.
 #[derive(Debug, Clone, PartialEq)]
 pub enum FittedSeries {
     Creep(Creep),
@@ -137,15 +137,15 @@ pub fn fit(table: &Tabulated, flow: Option<bool>) -> Result<Fit, FitError> {
         noise: NOTICEABLE.max(table.rounding()),
         reference,
     };
-    let most = problem.search(table.face() == MaterialFunction::Creep, LONGEST);
+    let most = problem.search(table.function() == MaterialFunction::Creep, LONGEST);
     problem.noise = most.residual()?.max(problem.noise);
     let candidates = problem.candidates()?;
     let is_fluid = match flow {
         Some(flow) => flow,
         None => problem.is_fluid(&candidates)?,
     };
-    let face = table.face();
-    if is_fluid && face == MaterialFunction::Creep && candidates.fluid.flow_per_s == 0.0 {
+    let function = table.function();
+    if is_fluid && function == MaterialFunction::Creep && candidates.fluid.flow_per_s == 0.0 {
         return Err(FitError::NoFlow);
     }
     let mut remarks: Vec<_> = table
@@ -154,7 +154,7 @@ pub fn fit(table: &Tabulated, flow: Option<bool>) -> Result<Fit, FitError> {
         .cloned()
         .map(FitRemark::Table)
         .collect();
-    if face == MaterialFunction::Creep {
+    if function == MaterialFunction::Creep {
         remarks.push(problem.flow_remark(&candidates, is_fluid));
     }
     let series = match is_fluid {
@@ -163,13 +163,13 @@ pub fn fit(table: &Tabulated, flow: Option<bool>) -> Result<Fit, FitError> {
     };
     let ends = problem.variants(&series, is_fluid)?;
     remarks.extend(problem.extrapolations(&series, &ends));
-    let in_si = |series: &Series| in_si(face, series, reference);
+    let in_si = |series: &Series| in_si(function, series, reference);
     let fitted = in_si(&series)?;
     let samples = problem.samples(&series, is_fluid)?;
     let ends = ends.iter().map(|end| &end.series);
     let alternatives: Result<_, _> = ends.chain(&samples).map(in_si).collect();
     let report = FitReport {
-        face,
+        function,
         kind: table.kind(),
         samples: table.times_s().len(),
         groups: groups.values.len(),
@@ -216,7 +216,7 @@ impl Problem<'_> {
         let shortest = if knows_zero { SHORTEST.1 } else { SHORTEST.0 };
         let first_s = curve.shortest_time_s().unwrap_or(1.0);
         Search {
-            face: self.table.face(),
+            function: self.table.function(),
             times_s: &self.table.groups().times_s,
             values: &self.values,
             weights: &self.weights,
@@ -230,7 +230,8 @@ impl Problem<'_> {
         let search = self.search(false, LONGEST);
         let mut solid = search.run(&[])?;
         let least = self.values.iter().copied().fold(f64::INFINITY, f64::min);
-        if self.table.face() == MaterialFunction::Relaxation && solid.constant < NOTICEABLE * least
+        if self.table.function() == MaterialFunction::Relaxation
+            && solid.constant < NOTICEABLE * least
         {
             // Half of the largest equilibrium modulus that the data allow.
             let most = self.allowed(&search, &solid);
@@ -248,7 +249,7 @@ impl Problem<'_> {
     fn is_fluid(&self, candidates: &Candidates) -> Result<bool, FitError> {
         let Candidates { solid, fluid } = candidates;
         let (resting, flowing) = (self.search(false, 1.0), self.search(true, 1.0));
-        let creeps = self.table.face() == MaterialFunction::Creep;
+        let creeps = self.table.function() == MaterialFunction::Creep;
         let explained = resting.misfit(solid) <= NOTICEABLE;
         if creeps && (explained || resting.score(solid) < flowing.score(fluid) - PRICE) {
             return Ok(false);
@@ -287,7 +288,7 @@ impl Problem<'_> {
 
     /// The series that fit about as well and have the lowest and highest values at the ends of time.
     fn variants(&self, fit: &Series, is_fluid: bool) -> Result<Vec<Variant>, FitError> {
-        let face = self.table.face();
+        let function = self.table.function();
         let later = self.search(is_fluid, AFTER);
         let mut earlier = self.search(is_fluid, LONGEST);
         earlier.limits_s.0 *= BEFORE;
@@ -299,16 +300,17 @@ impl Problem<'_> {
             (slowest, &later, true),
             (Open::Instantaneous, &earlier, self.table.times_s()[0] > 0.0),
         ] {
-            let value = fit.open(face, open);
+            let value = fit.open(function, open);
             // What has no instantaneous compliance cannot go into contact, and what differs from it does not fit.
-            let rigid = fit.open(face, Open::Instantaneous) == 0.0;
+            let rigid = fit.open(function, Open::Instantaneous) == 0.0;
             if !applies || rigid || value == 0.0 {
                 continue;
             }
             for limit in [value / WIDEST, value * WIDEST] {
                 let series = search.farthest(open, (value, limit), most, &fit.times_s())?;
-                let differs =
-                    |series: &Series| (series.open(face, open) / value - 1.0).abs() > NOTICEABLE;
+                let differs = |series: &Series| {
+                    (series.open(function, open) / value - 1.0).abs() > NOTICEABLE
+                };
                 let series = series.filter(differs);
                 ends.extend(series.map(|series| Variant { open, series }));
             }
@@ -326,7 +328,7 @@ impl Problem<'_> {
             let points = search.times_s.iter().zip(&self.weights);
             let values = points.map(|(&time_s, weight)| {
                 let noise = self.noise / weight * random.normal();
-                spectrum.value(search.face, time_s) * noise.exp()
+                spectrum.value(search.function, time_s) * noise.exp()
             });
             let values: Vec<f64> = values.collect();
             let again = Search {
@@ -344,37 +346,37 @@ impl Problem<'_> {
 
     /// What the series says where there are no data.
     fn extrapolations(&self, series: &Series, ends: &[Variant]) -> Vec<FitRemark> {
-        let face = self.table.face();
-        let value = |time_s: f64| series.value(face, time_s);
+        let function = self.table.function();
+        let value = |time_s: f64| series.value(function, time_s);
         let range = |open: Open| {
             let others = ends.iter().filter(|other| other.open == open);
-            let others = others.map(|other| other.series.open(face, open));
-            let own = series.open(face, open);
+            let others = others.map(|other| other.series.open(function, open));
+            let own = series.open(function, open);
             let both = others.fold((own, own), |(a, b), v| (a.min(v), b.max(v)));
             (both.0 * self.reference, both.1 * self.reference)
         };
         let mut remarks = Vec::new();
         let first_s = self.table.times_s()[0];
-        if face == MaterialFunction::Creep && series.constant == 0.0 {
+        if function == MaterialFunction::Creep && series.constant == 0.0 {
             remarks.push(FitRemark::InstantaneouslyRigid { first_s });
         } else if first_s > 0.0 {
             remarks.push(FitRemark::Instantaneous {
-                face,
+                function,
                 first_s,
                 value: value(0.0) * self.reference,
                 share: (value(0.0) / value(first_s) - 1.0).abs(),
                 allowed: range(Open::Instantaneous),
             });
         }
-        let equilibrium = series.open(face, Open::Equilibrium);
-        if face == MaterialFunction::Relaxation && equilibrium == 0.0 {
+        let equilibrium = series.open(function, Open::Equilibrium);
+        if function == MaterialFunction::Relaxation && equilibrium == 0.0 {
             remarks.push(FitRemark::NoEquilibrium);
         } else if series.flow_per_s == 0.0 {
             let last_s = self.table.curve().last_time_s();
             let share = (equilibrium / value(last_s) - 1.0).abs();
             if share > FAR_FROM_EQUILIBRIUM {
                 remarks.push(FitRemark::Equilibrium {
-                    face,
+                    function,
                     last_s,
                     share,
                     allowed: range(Open::Equilibrium),
@@ -386,13 +388,13 @@ impl Problem<'_> {
 }
 
 fn in_si(
-    face: MaterialFunction,
+    function: MaterialFunction,
     series: &Series,
     reference: f64,
 ) -> Result<FittedSeries, MaterialError> {
     let branches = series.branches.iter();
     let constant = series.constant * reference;
-    Ok(match face {
+    Ok(match function {
         MaterialFunction::Creep => {
             let branches = branches.map(|b| CreepBranch {
                 compliance_per_pa: b.strength * reference,
@@ -498,23 +500,25 @@ mod tests {
         library::find("pmma").unwrap().material().unwrap()
     }
 
-    fn fitted(face: MaterialFunction, times: Vec<f64>, function: impl FnMut(f64) -> f64) -> Fit {
-        let values = times.iter().copied().map(function).collect();
+    fn fitted(function: MaterialFunction, times: Vec<f64>, value: impl FnMut(f64) -> f64) -> Fit {
+        let values = times.iter().copied().map(value).collect();
         fit(
-            &Tabulated::new(face, ModulusKind::Longitudinal, times, values).unwrap(),
+            &Tabulated::new(function, ModulusKind::Longitudinal, times, values).unwrap(),
             None,
         )
         .unwrap()
     }
 
     fn noisy(
-        face: MaterialFunction,
+        function: MaterialFunction,
         times: Vec<f64>,
         seed: u64,
-        function: impl Fn(f64) -> f64,
+        value: impl Fn(f64) -> f64,
     ) -> Fit {
         let mut noise = Noise(seed);
-        fitted(face, times, |t| function(t) * (1.0 + 0.01 * noise.normal()))
+        fitted(function, times, |t| {
+            value(t) * (1.0 + 0.01 * noise.normal())
+        })
     }
 
     fn creep(fit: &Fit) -> &Creep {
@@ -791,9 +795,9 @@ mod tests {
     fn a_table_can_be_asked_for_a_fluid_or_a_solid() {
         let flowing = |t: f64| 1e-9 * (1.0 + t / 30.0 + 0.5 * (1.0 - (-t / 2.0_f64).exp()));
         let times = log_spaced(0.1, 100.0, 10);
-        let table = |function: &dyn Fn(f64) -> f64, face| {
-            let values = times.iter().map(|&t| function(t)).collect();
-            Tabulated::new(face, ModulusKind::Shear, times.clone(), values).unwrap()
+        let table = |value: &dyn Fn(f64) -> f64, function| {
+            let values = times.iter().map(|&t| value(t)).collect();
+            Tabulated::new(function, ModulusKind::Shear, times.clone(), values).unwrap()
         };
         let fluid = table(&flowing, MaterialFunction::Creep);
         let is_fluid = |table: &Tabulated, flow| {

@@ -165,9 +165,9 @@ impl Material {
         ))
     }
 
-    /// The complex modulus from the face that was given, which has seen no conversion.
+    /// The complex modulus from the function that was given, which has seen no conversion.
     fn complex_modulus_as(&self, kind: ModulusKind, omega: f64) -> Complex<f64> {
-        let own = match (self.given, &self.relaxation) {
+        let own = match (self.function, &self.relaxation) {
             (MaterialFunction::Relaxation, Some(relaxation)) => relaxation.complex_modulus(omega),
             _ => self.creep.complex_modulus(omega),
         };

@@ -46,42 +46,47 @@ pub fn entries() -> &'static [LibraryEntry] {
 }
 
 static ENTRIES: [LibraryEntry; 9] = [
-    elastic_entry(
-        "diamond",
-        "diamond",
-        "W. C. Oliver and G. M. Pharr, \"An improved technique for determining hardness and elastic modulus using load and displacement sensing indentation experiments\", Journal of Materials Research 7 (1992) 1564, doi:10.1557/JMR.1992.1564",
-        "Elastic: the indenter of instrumented indentation, 1141 GPa, Poisson ratio 0.07.",
-        || elastic(1141e9, 0.07),
-    ),
-    elastic_entry(
-        "epoxy",
-        "epoxy resin 3501-6",
-        "P. D. Soden, M. J. Hinton and A. S. Kaddour, \"Lamina properties, lay-up configurations and loading conditions for a range of fibre-reinforced composite laminates\", Composites Science and Technology 58 (1998) 1011",
-        "Elastic: a cured resin of carbon-fibre composites at room temperature, 4.2 GPa, Poisson ratio 0.34. What it loses in a cycle is not in these numbers.",
-        || elastic(4.2e9, 0.34),
-    ),
-    elastic_entry(
-        "glass",
-        "soda-lime glass",
-        "EN 572-1, Glass in building: basic soda lime silicate glass products, part 1: definitions and general physical and mechanical properties",
-        "Elastic: 70 GPa, Poisson ratio 0.2.",
-        || elastic(70e9, 0.2),
-    ),
+    LibraryEntry {
+        name: "diamond",
+        title: "diamond",
+        source: "W. C. Oliver and G. M. Pharr, \"An improved technique for determining hardness and elastic modulus using load and displacement sensing indentation experiments\", Journal of Materials Research 7 (1992) 1564, doi:10.1557/JMR.1992.1564",
+        notes: "Elastic: the indenter of instrumented indentation, 1141 GPa, Poisson ratio 0.07.",
+        measured_window_s: None,
+        build: || elastic(1141e9, 0.07),
+    },
+    LibraryEntry {
+        name: "epoxy",
+        title: "epoxy resin 3501-6",
+        source: "P. D. Soden, M. J. Hinton and A. S. Kaddour, \"Lamina properties, lay-up configurations and loading conditions for a range of fibre-reinforced composite laminates\", Composites Science and Technology 58 (1998) 1011",
+        notes: "Elastic: a cured resin of carbon-fibre composites at room temperature, 4.2 GPa, Poisson ratio 0.34. What it loses in a cycle is not in these numbers.",
+        measured_window_s: None,
+        build: || elastic(4.2e9, 0.34),
+    },
+    LibraryEntry {
+        name: "glass",
+        title: "soda-lime glass",
+        source: "EN 572-1, Glass in building: basic soda lime silicate glass products, part 1: definitions and general physical and mechanical properties",
+        notes: "Elastic: 70 GPa, Poisson ratio 0.2.",
+        measured_window_s: None,
+        build: || elastic(70e9, 0.2),
+    },
     LibraryEntry {
         name: "liver",
         title: "human liver",
         source: "P. Asbach, D. Klatt, U. Hamhaber, J. Braun, R. Somasundaram, B. Hamm and I. Sack, \"Assessment of liver viscoelasticity using multifrequency MR elastography\", Magnetic Resonance in Medicine 60 (2008) 373, the means of eight healthy volunteers",
         notes: "Healthy liver in the living body: shear moduli 1.16 kPa and 1.97 kPa and viscosity 7.3 Pa s of the standard linear solid, from shear waves of 25 Hz to 62.5 Hz, far smaller than the strains of most contacts; the volunteers scatter by 0.28 kPa, 0.30 kPa and 2.3 Pa s. Poisson ratio 0.5, taken as constant.",
         measured_window_s: Some((1.0 / (TAU * 62.5), 1.0 / (TAU * 25.0))),
-        build: liver,
+        // A spring beside a spring of 1970 Pa and a dashpot of 7.3 Pa s in series.
+        build: || prony(ModulusKind::Shear, 0.5, 1160.0, &[(1970.0, 7.3 / 1970.0)]),
     },
-    elastic_entry(
-        "pdms",
-        "PDMS (Sylgard 184)",
-        "I. D. Johnston, D. K. McCluskey, C. K. L. Tan and M. C. Tracey, \"Mechanical characterization of bulk Sylgard 184 for microfluidics and microengineering\", Journal of Micromechanics and Microengineering 24 (2014) 035017, doi:10.1088/0960-1317/24/3/035017",
-        "Elastic: cured at 25 °C, 1.32 MPa in tension (2.97 MPa where it is cured at 200 °C); Poisson ratio 0.5. What it loses in a cycle is not in these numbers.",
-        || elastic(1.32e6, 0.5),
-    ),
+    LibraryEntry {
+        name: "pdms",
+        title: "PDMS (Sylgard 184)",
+        source: "I. D. Johnston, D. K. McCluskey, C. K. L. Tan and M. C. Tracey, \"Mechanical characterization of bulk Sylgard 184 for microfluidics and microengineering\", Journal of Micromechanics and Microengineering 24 (2014) 035017, doi:10.1088/0960-1317/24/3/035017",
+        notes: "Elastic: cured at 25 °C, 1.32 MPa in tension (2.97 MPa where it is cured at 200 °C); Poisson ratio 0.5. What it loses in a cycle is not in these numbers.",
+        measured_window_s: None,
+        build: || elastic(1.32e6, 0.5),
+    },
     LibraryEntry {
         name: "pmma",
         title: "PMMA",
@@ -90,7 +95,14 @@ static ENTRIES: [LibraryEntry; 9] = [
         // The end is the source's. It does not say when the first sample was taken; one second is what a testing machine needs
         // to put the strain on, and a ninth of the shortest time of the series, of which nothing is seen before.
         measured_window_s: Some((1.0, 1000.0)),
-        build: pmma,
+        build: || {
+            prony(
+                ModulusKind::Longitudinal,
+                0.38,
+                1973e6,
+                &[(254.776e6, 8.93), (263.6628e6, 117.96)],
+            )
+        },
     },
     LibraryEntry {
         name: "pvb",
@@ -100,43 +112,30 @@ static ENTRIES: [LibraryEntry; 9] = [
         measured_window_s: Some((PVB[0].1, PVB[PVB.len() - 1].1)),
         build: pvb,
     },
-    elastic_entry(
-        "rubber",
-        "natural rubber",
-        "L. A. Wood, \"Modulus of Natural Rubber Cross-Linked by Dicumyl Peroxide. II. Comparison With Theory\", Journal of Research of the National Bureau of Standards 77A (1973) 171, equation G = 5.925e-3 (fp - 0.45) T + 0.0684 (fp - 0.45) + 2.70 of its abstract (Mdyn/cm2, K, parts of decomposed peroxide per hundred of rubber)",
-        "Elastic: natural rubber cross-linked by 2 parts of dicumyl peroxide per hundred, 25 °C, unfilled: shear modulus 0.554 MPa by that equation, 1.66 MPa in tension; Poisson ratio 0.5.",
-        rubber,
-    ),
-    elastic_entry(
-        "steel",
-        "steel",
-        "EN 1993-1-1:2005, Eurocode 3: design of steel structures, part 1-1: general rules and rules for buildings, section 3.2.6",
-        "Elastic: 210 GPa, Poisson ratio 0.3.",
-        || elastic(210e9, 0.3),
-    ),
+    LibraryEntry {
+        name: "rubber",
+        title: "natural rubber",
+        source: "L. A. Wood, \"Modulus of Natural Rubber Cross-Linked by Dicumyl Peroxide. II. Comparison With Theory\", Journal of Research of the National Bureau of Standards 77A (1973) 171, equation G = 5.925e-3 (fp - 0.45) T + 0.0684 (fp - 0.45) + 2.70 of its abstract (Mdyn/cm2, K, parts of decomposed peroxide per hundred of rubber)",
+        notes: "Elastic: natural rubber cross-linked by 2 parts of dicumyl peroxide per hundred, 25 °C, unfilled: shear modulus 0.554 MPa by that equation, 1.66 MPa in tension; Poisson ratio 0.5.",
+        measured_window_s: None,
+        build: rubber,
+    },
+    LibraryEntry {
+        name: "steel",
+        title: "steel",
+        source: "EN 1993-1-1:2005, Eurocode 3: design of steel structures, part 1-1: general rules and rules for buildings, section 3.2.6",
+        notes: "Elastic: 210 GPa, Poisson ratio 0.3.",
+        measured_window_s: None,
+        build: || elastic(210e9, 0.3),
+    },
 ];
 
-/// The shear modulus of the equation, of an incompressible body.
+/// Incompressible, of the shear modulus of the equation; 1 Mdyn/cm2 is 1e5 Pa.
 fn rubber() -> Result<Material, MaterialError> {
-    const PEROXIDE: f64 = 2.0;
-    const TEMPERATURE_K: f64 = 298.15;
-    const PA_PER_MDYN_PER_CM2: f64 = 1e5;
-    let beyond_gel = PEROXIDE - 0.45;
-    let shear = 5.925e-3 * beyond_gel * TEMPERATURE_K + 0.0684 * beyond_gel + 2.70;
-    elastic(3.0 * shear * PA_PER_MDYN_PER_CM2, 0.5)
-}
-
-/// Spring `mu1` beside a spring `mu2` and a dashpot in series.
-fn liver() -> Result<Material, MaterialError> {
-    const MU1_PA: f64 = 1160.0;
-    const MU2_PA: f64 = 1970.0;
-    const VISCOSITY_PA_S: f64 = 7.3;
-    let branch = RelaxationBranch {
-        modulus_pa: MU2_PA,
-        time_s: VISCOSITY_PA_S / MU2_PA,
-    };
-    let relaxation = Relaxation::new(MU1_PA, vec![branch])?;
-    Material::from_relaxation(relaxation, ModulusKind::Shear, 0.5)
+    let (peroxide, temperature_k) = (2.0, 298.15);
+    let beyond_gel = peroxide - 0.45;
+    let shear = 5.925e-3 * beyond_gel * temperature_k + 0.0684 * beyond_gel + 2.70;
+    elastic(3.0 * shear * 1e5, 0.5)
 }
 
 /// Shares of the instantaneous shear modulus, and relaxation times (s) at 20 °C.
@@ -156,48 +155,37 @@ const PVB: [(f64, f64); 11] = [
 
 fn pvb() -> Result<Material, MaterialError> {
     const INSTANTANEOUS_PA: f64 = 0.471e9;
-    const TEMPERATURE_K: f64 = 293.15;
-    let branch = |(share, time_s): &(f64, f64)| RelaxationBranch {
-        modulus_pa: share * INSTANTANEOUS_PA,
-        time_s: *time_s,
-    };
     let shares: f64 = PVB.iter().map(|(share, _)| share).sum();
     let equilibrium_pa = (1.0 - shares) * INSTANTANEOUS_PA;
-    let relaxation = Relaxation::new(equilibrium_pa, PVB.iter().map(branch).collect())?;
-    let law = Wlf {
-        reference_temperature_k: TEMPERATURE_K,
+    let branches = PVB.map(|(share, time_s)| (share * INSTANTANEOUS_PA, time_s));
+    let mut material = prony(ModulusKind::Shear, 0.49, equilibrium_pa, &branches)?;
+    material.origin.temperature_k = Some(293.15);
+    material.origin.shift = Some(Wlf {
+        reference_temperature_k: 293.15,
         c1: 20.7,
         c2_k: 91.1,
         c1_error: 0.0,
         c2_error_k: 0.0,
-    };
-    let mut material = Material::from_relaxation(relaxation, ModulusKind::Shear, 0.49)?;
-    material.origin.temperature_k = Some(TEMPERATURE_K);
-    material.origin.shift = Some(law);
+    });
     Ok(material)
 }
 
-const fn elastic_entry(
-    name: &'static str,
-    title: &'static str,
-    source: &'static str,
-    notes: &'static str,
-    build: fn() -> Result<Material, MaterialError>,
-) -> LibraryEntry {
-    LibraryEntry {
-        name,
-        title,
-        source,
-        notes,
-        measured_window_s: None,
-        build,
-    }
+/// A material of these moduli (Pa) and times (s).
+fn prony(
+    kind: ModulusKind,
+    poisson_ratio: f64,
+    equilibrium_pa: f64,
+    branches: &[(f64, f64)],
+) -> Result<Material, MaterialError> {
+    let branches = branches.iter();
+    let branches = branches.map(|&(modulus_pa, time_s)| RelaxationBranch { modulus_pa, time_s });
+    let relaxation = Relaxation::new(equilibrium_pa, branches.collect())?;
+    Material::from_relaxation(relaxation, kind, poisson_ratio)
 }
 
 /// An elastic body of this Young's modulus.
 pub fn elastic(modulus_pa: f64, poisson_ratio: f64) -> Result<Material, MaterialError> {
-    let relaxation = Relaxation::new(modulus_pa, Vec::new())?;
-    Material::from_relaxation(relaxation, ModulusKind::Longitudinal, poisson_ratio)
+    prony(ModulusKind::Longitudinal, poisson_ratio, modulus_pa, &[])
 }
 
 /// The entry of that name, whatever the case and surrounding blanks.
@@ -224,22 +212,6 @@ pub fn suggest(name: &str) -> Option<&'static str> {
         // In a short name one letter makes another polymer: PVC is no slip for PVB.
         .filter(|(distance, known)| 3 * distance < known.chars().count())
         .map(|(_, known)| known)
-}
-
-/// `E(t) = 1973 + 254.776 exp(-t/8.93) + 263.6628 exp(-t/117.96)`, in MPa and s.
-fn pmma() -> Result<Material, MaterialError> {
-    let branches = vec![
-        RelaxationBranch {
-            modulus_pa: 254.776e6,
-            time_s: 8.93,
-        },
-        RelaxationBranch {
-            modulus_pa: 263.6628e6,
-            time_s: 117.96,
-        },
-    ];
-    let relaxation = Relaxation::new(1973e6, branches)?;
-    Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.38)
 }
 
 #[cfg(test)]

@@ -115,7 +115,7 @@ pub struct Material {
     compressibility: Compressibility,
     /// Shear where a bulk modulus is given.
     kind: ModulusKind,
-    given: MaterialFunction,
+    function: MaterialFunction,
     creep: Creep,
     relaxation: Option<Relaxation>,
     indenter_material: Option<Box<Material>>,
@@ -168,9 +168,15 @@ impl Material {
         {
             return Self::from_creep(relaxation.to_creep()?, kind, compressibility);
         }
-        let (given, creep) = (MaterialFunction::Relaxation, relaxation.to_creep()?);
+        let (function, creep) = (MaterialFunction::Relaxation, relaxation.to_creep()?);
         let relaxation = Some(relaxation);
-        Ok(Self::plain(compressibility, kind, given, creep, relaxation))
+        Ok(Self::plain(
+            compressibility,
+            kind,
+            function,
+            creep,
+            relaxation,
+        ))
     }
 
     /// A material from its creep compliance. Without an instantaneous compliance (Kelvin-Voigt) it
@@ -197,15 +203,21 @@ impl Material {
             Err(MaterialError::NoRelaxationModulus) => None,
             Err(error) => return Err(error),
         };
-        let given = MaterialFunction::Creep;
-        Ok(Self::plain(compressibility, kind, given, creep, relaxation))
+        let function = MaterialFunction::Creep;
+        Ok(Self::plain(
+            compressibility,
+            kind,
+            function,
+            creep,
+            relaxation,
+        ))
     }
 
     /// Of which no more is known.
     fn plain(
         compressibility: Compressibility,
         kind: ModulusKind,
-        given: MaterialFunction,
+        function: MaterialFunction,
         creep: Creep,
         relaxation: Option<Relaxation>,
     ) -> Self {
@@ -213,7 +225,7 @@ impl Material {
             name: None,
             compressibility,
             kind,
-            given,
+            function,
             creep,
             relaxation,
             indenter_material: None,
@@ -303,9 +315,9 @@ impl Material {
         self.kind
     }
 
-    /// Which of the two faces was given.
-    pub fn given(&self) -> MaterialFunction {
-        self.given
+    /// Which of its two functions was given.
+    pub fn function(&self) -> MaterialFunction {
+        self.function
     }
 
     /// Creep compliance of the material's own [`kind`](Self::kind), in 1/Pa.
@@ -422,7 +434,7 @@ mod tests {
         let creep = classical::kelvin_voigt(1e9, 2.0).unwrap();
         let material = Material::from_creep(creep, ModulusKind::Shear, 0.3).unwrap();
         assert_eq!(material.relaxation(), None);
-        assert_eq!(material.given(), MaterialFunction::Creep);
+        assert_eq!(material.function(), MaterialFunction::Creep);
         assert_relative_eq!(
             material.shear_complex_modulus(0.5).re,
             1e9,

@@ -40,7 +40,7 @@ const SAMPLES_PER_DECADE: f64 = 100.0;
 /// How far beyond the reciprocals of the time constants the search goes.
 const MARGIN: f64 = 100.0;
 
-/// The maxima within two decades beyond the range of the time constants of both faces.
+/// The maxima within two decades beyond the range of the time constants of both functions.
 pub(super) fn loss_peaks(creep: &Creep, relaxation: Option<&Relaxation>) -> LossPeaks {
     let retardation = creep.branches().iter().map(|branch| branch.time_s);
     let relaxing = relaxation.map_or(&[][..], Relaxation::branches);

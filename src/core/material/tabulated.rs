@@ -75,19 +75,19 @@ pub enum TableError {
         before_s: f64,
     },
 
-    #[error("the {} of row {row} is {value:?}: it must be finite and greater than zero", name(*face))]
+    #[error("the {} of row {row} is {value:?}: it must be finite and greater than zero", name(*function))]
     Value {
-        face: MaterialFunction,
+        function: MaterialFunction,
         row: usize,
         value: f64,
     },
 
     #[error(
         "the {} {} by {:.1} % from row {earlier_row} to row {row}, which no passive material does; up to {:.0} % is taken for noise",
-        name(*face), wrong_way(*face), 100.0 * share, 100.0 * limit
+        name(*function), wrong_way(*function), 100.0 * share, 100.0 * limit
     )]
     Reversal {
-        face: MaterialFunction,
+        function: MaterialFunction,
         earlier_row: usize,
         row: usize,
         share: f64,
@@ -96,10 +96,10 @@ pub enum TableError {
 
     #[error(
         "the {} {} steadily, by {:.2} % from about row {earlier_row} to about row {row}, which no passive material does; its scatter of {:.2} % does not explain it",
-        name(*face), wrong_way(*face), 100.0 * share, 100.0 * scatter
+        name(*function), wrong_way(*function), 100.0 * share, 100.0 * scatter
     )]
     Trend {
-        face: MaterialFunction,
+        function: MaterialFunction,
         earlier_row: usize,
         row: usize,
         share: f64,
@@ -129,15 +129,15 @@ impl TableError {
 }
 
 /// `creep compliance` or `relaxation modulus`.
-pub(super) fn name(face: MaterialFunction) -> &'static str {
-    match face {
+pub(super) fn name(function: MaterialFunction) -> &'static str {
+    match function {
         MaterialFunction::Creep => "creep compliance",
         MaterialFunction::Relaxation => "relaxation modulus",
     }
 }
 
-fn wrong_way(face: MaterialFunction) -> &'static str {
-    match face {
+fn wrong_way(function: MaterialFunction) -> &'static str {
+    match function {
         MaterialFunction::Creep => "falls",
         MaterialFunction::Relaxation => "rises",
     }
@@ -149,10 +149,10 @@ pub enum TableWarning {
     /// Samples on the wrong side of an earlier one: how many, by how much at most, and where (row from 1).
     #[error(
         "{samples} {} on the wrong side of an earlier one: the {} {} by up to {:.2} % (row {row}), taken for noise",
-        if *samples == 1 { "sample is" } else { "samples are" }, name(*face), wrong_way(*face), 100.0 * largest_share
+        if *samples == 1 { "sample is" } else { "samples are" }, name(*function), wrong_way(*function), 100.0 * largest_share
     )]
     Noise {
-        face: MaterialFunction,
+        function: MaterialFunction,
         samples: usize,
         largest_share: f64,
         row: usize,
@@ -193,7 +193,7 @@ pub(super) fn seconds(time_s: f64) -> String {
 /// Checked samples of a creep compliance (1/Pa) or a relaxation modulus (Pa) over time (s).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tabulated {
-    face: MaterialFunction,
+    function: MaterialFunction,
     kind: ModulusKind,
     curve: Interpolant,
     groups: Groups,
@@ -251,24 +251,24 @@ impl Groups {
 }
 
 impl Tabulated {
-    /// Samples of `face`, a quantity of `kind`; times in s, values in 1/Pa or Pa.
+    /// Samples of `function`, a quantity of `kind`; times in s, values in 1/Pa or Pa.
     ///
     /// # Errors
     /// [`TableError`], naming the row: no or too few samples; a time that is not finite, negative or not after the one
     /// before; a value that is not finite and positive; a course that no passive material can have.
     pub fn new(
-        face: MaterialFunction,
+        function: MaterialFunction,
         kind: ModulusKind,
         times_s: Vec<f64>,
         values: Vec<f64>,
     ) -> Result<Self, TableError> {
-        check_samples(face, &times_s, &values)?;
+        check_samples(function, &times_s, &values)?;
         let groups = Groups::of(&times_s, &values);
-        course::check(face, &times_s, &values, &groups)?;
-        let mut warnings: Vec<_> = course::noise(face, &values).into_iter().collect();
+        course::check(function, &times_s, &values, &groups)?;
+        let mut warnings: Vec<_> = course::noise(function, &values).into_iter().collect();
         warnings.extend(coverage(&times_s));
         Ok(Self {
-            face,
+            function,
             kind,
             curve: Interpolant::through(times_s, values),
             groups,
@@ -286,8 +286,8 @@ impl Tabulated {
     }
 
     /// Whether the samples are a creep compliance or a relaxation modulus.
-    pub fn face(&self) -> MaterialFunction {
-        self.face
+    pub fn function(&self) -> MaterialFunction {
+        self.function
     }
 
     /// Whether they are shear or longitudinal.
@@ -338,15 +338,15 @@ impl Tabulated {
     /// Applied Physics 28 (1957) 906), with D linear between instants four times as dense as the samples. That takes a sum over
     /// all earlier instants at each, and so the samples in their groups: a fortieth of a decade is far finer than any relaxation.
     pub fn creep_curve(&self) -> Interpolant {
-        match self.face {
+        match self.function {
             MaterialFunction::Creep => {
                 let weights = vec![1.0; self.values().len()];
-                let monotone = isotonic(self.face, self.values(), &weights);
+                let monotone = isotonic(self.function, self.values(), &weights);
                 Interpolant::through(self.times_s().to_vec(), monotone)
             }
             MaterialFunction::Relaxation => {
                 let groups = &self.groups;
-                let monotone = isotonic(self.face, &groups.values, &groups.counts());
+                let monotone = isotonic(self.function, &groups.values, &groups.counts());
                 creep_of(&Interpolant::through(groups.times_s.clone(), monotone))
             }
         }
@@ -368,7 +368,7 @@ impl Tabulated {
 
 /// Everything that can be said of one sample and the one before.
 fn check_samples(
-    face: MaterialFunction,
+    function: MaterialFunction,
     times_s: &[f64],
     values: &[f64],
 ) -> Result<(), TableError> {
@@ -390,7 +390,11 @@ fn check_samples(
             });
         }
         if !(value.is_finite() && value > 0.0) {
-            return Err(TableError::Value { face, row, value });
+            return Err(TableError::Value {
+                function,
+                row,
+                value,
+            });
         }
         before = Some(time_s);
     }
@@ -429,8 +433,8 @@ fn written(value: f64) -> (i32, i32) {
 }
 
 /// The monotone sequence nearest to the values, each of this weight: rising for a creep compliance, falling for a relaxation modulus.
-fn isotonic(face: MaterialFunction, values: &[f64], weights: &[f64]) -> Vec<f64> {
-    order::isotonic(values, weights, |before, after| match face {
+fn isotonic(function: MaterialFunction, values: &[f64], weights: &[f64]) -> Vec<f64> {
+    order::isotonic(values, weights, |before, after| match function {
         MaterialFunction::Creep => before > after,
         MaterialFunction::Relaxation => before < after,
     })
@@ -674,9 +678,9 @@ mod tests {
     fn what_goes_into_the_direct_sum_never_falls_and_is_the_samples_where_they_do_not() {
         let mut noise = Noise(3);
         let times = log_spaced(1.0, 1e3, 20);
-        for face in [MaterialFunction::Creep, MaterialFunction::Relaxation] {
+        for function in [MaterialFunction::Creep, MaterialFunction::Relaxation] {
             let table = |noise: &mut dyn FnMut() -> f64| {
-                let value = |t: f64| match face {
+                let value = |t: f64| match function {
                     MaterialFunction::Creep => 2.0 - (-t / 10.0).exp(),
                     MaterialFunction::Relaxation => 1.0 + (-t / 10.0).exp(),
                 };
@@ -684,17 +688,17 @@ mod tests {
                     .iter()
                     .map(|&t| value(t) * (1.0 + 0.02 * noise()))
                     .collect();
-                Tabulated::new(face, ModulusKind::Shear, times.clone(), values).unwrap()
+                Tabulated::new(function, ModulusKind::Shear, times.clone(), values).unwrap()
             };
             let clean = table(&mut || 0.0);
             let ones = vec![1.0; times.len()];
-            assert_eq!(isotonic(face, clean.values(), &ones), clean.values());
+            assert_eq!(isotonic(function, clean.values(), &ones), clean.values());
             let noisy = table(&mut || noise.normal());
             let curve = noisy.creep_curve();
             assert!(curve.values().windows(2).all(|pair| pair[0] <= pair[1]));
             // Pooling keeps the mean.
             let sum = |values: &[f64]| values.iter().sum::<f64>();
-            let ratio = sum(&isotonic(face, noisy.values(), &ones)) / sum(noisy.values());
+            let ratio = sum(&isotonic(function, noisy.values(), &ones)) / sum(noisy.values());
             assert!((ratio - 1.0).abs() < 1e-13);
         }
     }
@@ -752,8 +756,8 @@ mod tests {
         let times: Vec<f64> = (0..count).map(|i| 0.05 * f64::from(i)).collect();
         let modulus = |t: f64| equilibrium + stiffness * (-t / time_s).exp();
         let values = times.iter().map(|&t| modulus(t)).collect();
-        let (face, kind) = (MaterialFunction::Relaxation, ModulusKind::Shear);
-        let curve = Tabulated::new(face, kind, times, values)
+        let (function, kind) = (MaterialFunction::Relaxation, ModulusKind::Shear);
+        let curve = Tabulated::new(function, kind, times, values)
             .unwrap()
             .creep_curve();
         // 4.6 decades, the first one and a half of them sparse, four instants for each.

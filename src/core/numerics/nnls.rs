@@ -29,6 +29,20 @@ const RANK_TOLERANCE: f64 = 1e-13;
 /// # Errors
 /// [`NnlsError`].
 pub fn nnls(matrix: &DMatrix<f64>, b: &DVector<f64>) -> Result<DVector<f64>, NnlsError> {
+    nnls_from(matrix, b, Vec::new(), GRADIENT_TOLERANCE * b.norm())
+}
+
+/// The same from the columns on that the solution of a similar problem has in use. A column of unit length is taken in where the gradient
+/// exceeds the tolerance, in the units of b.
+///
+/// # Errors
+/// [`NnlsError`].
+pub fn nnls_from(
+    matrix: &DMatrix<f64>,
+    b: &DVector<f64>,
+    mut passive: Vec<usize>,
+    tolerance: f64,
+) -> Result<DVector<f64>, NnlsError> {
     if !matrix.iter().chain(b.iter()).all(|value| value.is_finite()) {
         return Err(NnlsError::NotFinite);
     }
@@ -42,7 +56,20 @@ pub fn nnls(matrix: &DMatrix<f64>, b: &DVector<f64>) -> Result<DVector<f64>, Nnl
         }
     }
     let mut x = DVector::zeros(columns);
-    let mut passive: Vec<usize> = Vec::new();
+    passive.retain(|&column| column < columns && lengths[column] > 0.0);
+    // The largest part of the first columns whose least squares solution is positive, found by leaving out what is not.
+    while !passive.is_empty() {
+        let Some(z) = least_squares(&unit.select_columns(passive.iter()), b) else {
+            passive.clear();
+            break;
+        };
+        let mut positive = z.iter().map(|&z| z > 0.0);
+        if positive.clone().all(|positive| positive) {
+            passive.iter().zip(z.iter()).for_each(|(&j, &z)| x[j] = z);
+            break;
+        }
+        passive.retain(|_| positive.next().unwrap_or(false));
+    }
     // Columns that rounding alone would bring in, until something else has moved.
     let mut barred: Vec<bool> = lengths.iter().map(|&length| length == 0.0).collect();
     let most = 10 * columns + 100;
@@ -50,8 +77,7 @@ pub fn nnls(matrix: &DMatrix<f64>, b: &DVector<f64>) -> Result<DVector<f64>, Nnl
         let gradient = unit.tr_mul(&(b - &unit * &x));
         let free = (0..columns).filter(|j| !barred[*j] && !passive.contains(j));
         let steepest = free.max_by(|&i, &j| gradient[i].total_cmp(&gradient[j]));
-        let Some(entering) = steepest.filter(|&j| gradient[j] > GRADIENT_TOLERANCE * b.norm())
-        else {
+        let Some(entering) = steepest.filter(|&j| gradient[j] > tolerance) else {
             for (value, length) in x
                 .iter_mut()
                 .zip(&lengths)

@@ -139,7 +139,7 @@ impl BodyMaterial {
 fn samples_text(sampled: &Sampled) -> String {
     let table = sampled.table();
     let samples = Table::new("table")
-        .with("quantity", table.face().name())
+        .with("quantity", table.function().name())
         .with("modulus", table.kind().name())
         .with("evaluation", "direct")
         .with("times", Value::Numbers(table.times_s().to_vec()))

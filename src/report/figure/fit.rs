@@ -43,9 +43,9 @@ fn shown(table: &Tabulated, most: usize) -> Vec<(f64, f64)> {
 }
 
 fn curves(table: &Tabulated, fit: &Fit) -> Figure {
-    let symbol = table.face().symbol(table.kind());
+    let symbol = table.function().symbol(table.kind());
     let values = range(table.values().iter().copied());
-    let (factor, label) = match table.face() {
+    let (factor, label) = match table.function() {
         MaterialFunction::Relaxation => {
             let (factor, unit) = prefix(values.1);
             (factor, format!("relaxation modulus {symbol}(t) / {unit}Pa"))
@@ -108,7 +108,7 @@ fn residual(table: &Tabulated, fit: &Fit) -> Figure {
 }
 
 fn caption(table: &Tabulated, fit: &Fit, shows: &str) -> Caption {
-    let what = match table.face() {
+    let what = match table.function() {
         MaterialFunction::Creep => "creep compliance",
         MaterialFunction::Relaxation => "relaxation modulus",
     };
@@ -131,7 +131,7 @@ fn positive_range_s(table: &Tabulated) -> (f64, f64) {
 }
 
 fn data_table(table: &Tabulated, fit: &Fit) -> Vec<u8> {
-    let columns = match table.face() {
+    let columns = match table.function() {
         MaterialFunction::Creep => ["time_s", "creep_compliance_per_pa", "fit_per_pa"],
         MaterialFunction::Relaxation => ["time_s", "relaxation_modulus_pa", "fit_pa"],
     };

@@ -72,11 +72,11 @@ pub fn page(material: &Material, about: &About<'_>) -> Result<String, ReportErro
             figure class="static" { @if let Some(figure) = about.pictures.inline(about.figure) { (figure) } }
         }
     };
-    let face = match about.fit {
-        Some((table, _)) => table.face(),
-        None => material.given(),
+    let function = match about.fit {
+        Some((table, _)) => table.function(),
+        None => material.function(),
     };
-    let (label, unit) = match face {
+    let (label, unit) = match function {
         MaterialFunction::Relaxation => ("relaxation modulus", "Pa"),
         MaterialFunction::Creep => ("creep compliance", "1/Pa"),
     };
@@ -138,7 +138,7 @@ fn curves(material: &Material, fit: Option<(&Tabulated, &Fit)>) -> Vec<Curve> {
     }
     let (shortest, longest) = MaterialReport::new(material).time_range_s();
     let times = times(0.01 * shortest, 100.0 * longest);
-    vec![match (material.given(), material.relaxation()) {
+    vec![match (material.function(), material.relaxation()) {
         (MaterialFunction::Relaxation, Some(relaxation)) => {
             curve("relaxation modulus", times, &|t| relaxation.modulus(t))
         }

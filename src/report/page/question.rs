@@ -152,7 +152,7 @@ pub(super) fn material(material: &Material) -> Markup {
     }
     let kind = material.kind().name();
     let time = |time_s| plain(time_s, Dimension::Time, 5);
-    match (material.given(), material.relaxation()) {
+    match (material.function(), material.relaxation()) {
         (MaterialFunction::Relaxation, Some(relaxation)) => {
             let modulus = |value| plain(value, Dimension::Stress, 6);
             facts.add("given as", format!("{kind} relaxation modulus"));

@@ -10,7 +10,6 @@ mod interpolation;
 pub mod master_curve;
 mod neighbours;
 pub mod noise;
-mod normal_equations;
 mod one_curve;
 pub mod prony;
 pub mod replicas;

@@ -58,9 +58,13 @@ fn searched(curve: &OneCurve, colder: &Isotherm, hotter: &Isotherm) -> f64 {
     let most = highest.log10() - lowest.log10() + 1.0;
     let steps = ((most + 1.0) / SEARCH_STEP).ceil().max(1.0) as usize;
     let tried = (0..=steps).map(|i| -1.0 + SEARCH_STEP * i as f64);
-    let tried: Vec<(f64, f64)> = tried
-        .map(|shift| (shift, curve.at(&curve.places(&[shift, 0.0]), &[]).squares))
-        .collect();
+    let mut times = Vec::new();
+    let tried = tried.map(|shift| {
+        let state = curve.at(&curve.places(&[shift, 0.0]), &times);
+        times = state.times;
+        (shift, state.squares)
+    });
+    let tried: Vec<(f64, f64)> = tried.collect();
     let least = tried.iter().map(|t| t.1).fold(f64::INFINITY, f64::min);
     let valleys = (0..tried.len()).filter(|&i| {
         let no_less = |other: Option<&(f64, f64)>| other.is_none_or(|o| o.1 >= tried[i].1);

@@ -14,7 +14,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::Isotherm;
 use super::noise::Noise;
-use super::normal_equations::Solution;
+use crate::material::harmonic::Debye;
 use columns::Columns;
 
 /// How far the times go beyond the reciprocals of the angular frequencies (decades): so far that the flank of a branch outside is
@@ -64,7 +64,7 @@ pub(super) struct State {
     /// Linear unknowns in use.
     pub(super) linear: usize,
     /// Steps of the times in use, for the next solution.
-    times: Vec<i64>,
+    pub(super) times: Vec<i64>,
     /// Half the gradient and the curvature of the sum of squares by the shifts, the fixed one left out of neither.
     gradient: DVector<f64>,
     curvature: DMatrix<f64>,
@@ -167,14 +167,10 @@ impl OneCurve {
 
     /// The best curve for these places.
     pub(super) fn at(&self, places: &[f64], start: &[i64]) -> State {
-        let columns = self.columns(places);
-        let solution = columns.equations.solve(&columns.start(start));
-        let mut residual = self.right();
-        for (&column, &value) in solution.columns.iter().zip(&solution.values) {
-            residual.axpy(-value, &columns.matrix.column(column), 1.0);
-        }
-        let used = &solution.columns;
-        let (gradient, curvature) = self.derivatives(places, &columns, &solution, used, &residual);
+        let columns = self.columns(places, start);
+        let residual = self.right() - &columns.matrix * &columns.moduli;
+        let used = columns.used();
+        let (gradient, curvature) = self.derivatives(places, &columns, &used, &residual);
         let from_expected = DVector::from_row_slice(places) - &self.expected.1;
         let pull = &self.expected.0 * &from_expected;
         State {
@@ -183,9 +179,9 @@ impl OneCurve {
             objective: residual.norm_squared() + pull.dot(&from_expected),
             relative: self.relative(&residual),
             correlated: self.correlated(&residual),
-            taken: self.taken(&columns, &solution),
-            linear: solution.columns.len(),
-            times: columns.times_of(&solution),
+            taken: self.taken(&columns, &used),
+            linear: used.len(),
+            times: columns.times(),
             gradient: gradient - pull,
             curvature: curvature + &self.expected.0,
         }
@@ -262,11 +258,10 @@ impl OneCurve {
         state: &State,
         directions: &DMatrix<f64>,
     ) -> Option<DMatrix<f64>> {
-        let columns = self.columns(&state.places);
-        let solution = columns.equations.solve(&columns.start(&state.times));
-        let free = columns.with_neighbours(&solution.columns);
+        let columns = self.columns(&state.places, &state.times);
+        let free = columns.used_and_neighbours();
         let right = self.right();
-        let (_, curvature) = self.derivatives(&state.places, &columns, &solution, &free, &right);
+        let (_, curvature) = self.derivatives(&state.places, &columns, &free, &right);
         let curvature = directions.tr_mul(&((curvature + &self.expected.0) * directions));
         // A shift that the data say nothing about is unknown to ten decades rather than without bound.
         let weak = directions.tr_mul(directions) * 1e-2;
@@ -294,7 +289,7 @@ impl OneCurve {
         value.weights.map(|weight| weight * unshifted)
     }
 
-    fn columns(&self, places: &[f64]) -> Columns {
+    fn columns(&self, places: &[f64], start: &[i64]) -> Columns {
         let reduced: Vec<f64> = self
             .values
             .iter()
@@ -312,12 +307,12 @@ impl OneCurve {
             matrix[(2 * index, 0)] = storage;
             for k in 0..times {
                 let x = (reduced[index] + step * (first_time + k as i64) as f64).exp();
-                let share = x / (1.0 + x * x);
-                matrix[(2 * index, 1 + k)] = storage * x * share;
-                matrix[(2 * index + 1, 1 + k)] = loss * share;
+                let debye = Debye::at(x);
+                matrix[(2 * index, 1 + k)] = storage * debye.frozen;
+                matrix[(2 * index + 1, 1 + k)] = loss * debye.loss;
             }
         }
-        Columns::new(first_time, times, matrix, &self.right())
+        Columns::solved(first_time, matrix, &self.right(), start)
     }
 
     fn relative(&self, residual: &DVector<f64>) -> [f64; 2] {
@@ -331,11 +326,11 @@ impl OneCurve {
         [mean_square(0), mean_square(1)]
     }
 
-    fn taken(&self, columns: &Columns, solution: &Solution) -> [f64; 2] {
-        let used = columns.matrix.select_columns(&solution.columns);
-        let Some(factor) = columns.equations.factor(&solution.columns) else {
+    fn taken(&self, columns: &Columns, used: &[usize]) -> [f64; 2] {
+        let Some(factor) = columns.factor(used) else {
             return [0.0, 0.0];
         };
+        let used = columns.matrix.select_columns(used);
         let mut taken = [0.0, 0.0];
         // A trace of A (A' A)^-1 A' over some rows is that of (A' A)^-1 with the products of these rows.
         for (part, trace) in taken.iter_mut().enumerate() {
@@ -370,16 +365,16 @@ impl OneCurve {
         &self,
         places: &[f64],
         columns: &Columns,
-        solution: &Solution,
         free: &[usize],
         residual: &DVector<f64>,
     ) -> (DVector<f64>, DMatrix<f64>) {
         let mut gradient = DVector::zeros(places.len());
         let mut own = DMatrix::zeros(places.len(), places.len());
         let mut cross = DMatrix::zeros(free.len(), places.len());
+        let used = columns.used();
         for (index, value) in self.values.iter().enumerate() {
             let reduced = value.ln_omega + LN_10 * places[value.isotherm];
-            let modulus = columns.modulus(solution, reduced);
+            let modulus = columns.modulus(&used, reduced);
             let weights = self.weights(places, value);
             for part in 0..2 {
                 let row = 2 * index + part;
@@ -401,7 +396,7 @@ impl OneCurve {
                 }
             }
         }
-        match columns.equations.factor(free) {
+        match columns.factor(free) {
             Some(factor) => (gradient, own - cross.tr_mul(&factor.solve(&cross))),
             None => (gradient, own),
         }

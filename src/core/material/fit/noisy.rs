@@ -32,12 +32,12 @@ impl Times {
     /// Three digits with this noise, or all without any, as far as the function is no less than 1e-4 of its first value.
     fn measured(
         &self,
-        face: MaterialFunction,
+        function: MaterialFunction,
         truth: &Material,
         noise: f64,
         random: &mut Noise,
     ) -> Fit {
-        let value = |t: f64| match face {
+        let value = |t: f64| match function {
             MaterialFunction::Creep => truth.creep().compliance(t),
             MaterialFunction::Relaxation => truth.relaxation().unwrap().modulus(t),
         };
@@ -52,7 +52,7 @@ impl Times {
         };
         let values = values.map(rounded).collect();
         fit(
-            &Tabulated::new(face, ModulusKind::Shear, times, values).unwrap(),
+            &Tabulated::new(function, ModulusKind::Shear, times, values).unwrap(),
             None,
         )
         .unwrap()
@@ -114,8 +114,8 @@ fn noisy_solids_stay_solids_and_flows_that_are_resolved_are_found() {
             (MaterialFunction::Relaxation, relaxing(&resting, 1e6)),
             (MaterialFunction::Relaxation, relaxing(&moving, 0.0)),
         ];
-        for (face, truth) in cases {
-            let fit = times.measured(face, &truth, noise, &mut random);
+        for (function, truth) in cases {
+            let fit = times.measured(function, &truth, noise, &mut random);
             let flows = truth.creep().is_fluid();
             assert_eq!(
                 is_fluid(&fit),
@@ -154,12 +154,12 @@ fn the_loss_of_a_solid_from_a_table_is_in_its_error() {
             _ => random.log_uniform(1e-3, 0.03),
         };
         let all = branches(&mut random, last_s);
-        let (face, truth) = match seed % 2 {
+        let (function, truth) = match seed % 2 {
             0 => (MaterialFunction::Creep, creeping(&all, last_s, 0.0)),
             _ => (MaterialFunction::Relaxation, relaxing(&all, 1e6)),
         };
         let start = std::time::Instant::now();
-        let fit = times.measured(face, &truth, noise, &mut random);
+        let fit = times.measured(function, &truth, noise, &mut random);
         let seconds = start.elapsed().as_secs_f64();
         let fitted = fit.material(0.3).unwrap();
         let mut worst = 0.0_f64;
@@ -179,7 +179,7 @@ fn the_loss_of_a_solid_from_a_table_is_in_its_error() {
         }
         println!(
             "{seed}: {} {noise:.4}: {} branches of {}, {} alternatives; worst {worst:.2}; error {:.4}; {seconds:.3} s",
-            face.name(),
+            function.name(),
             fit.report().branches,
             all.len(),
             fitted.origin.alternatives.len(),

@@ -23,7 +23,7 @@ pub struct Misfit {
 /// What was fitted, how well, and what was assumed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FitReport {
-    pub face: MaterialFunction,
+    pub function: MaterialFunction,
     pub kind: ModulusKind,
     pub samples: usize,
     /// Groups of samples that were fitted; as many as samples where these are sparse.
@@ -47,10 +47,10 @@ pub enum FitRemark {
     /// The data begin at `first_s`: the value at time zero (1/Pa or Pa) is an extrapolation by this share.
     #[error(
         "the data begin at {}: the instantaneous {} of {} is assumed, {} from the first value of the fit; anything faster is taken for instantaneous; {}",
-        seconds(*first_s), name(*face), five_digits(*face, *value), percent(*share), range(*face, *allowed)
+        seconds(*first_s), name(*function), five_digits(*function, *value), percent(*share), range(*function, *allowed)
     )]
     Instantaneous {
-        face: MaterialFunction,
+        function: MaterialFunction,
         first_s: f64,
         value: f64,
         share: f64,
@@ -66,10 +66,10 @@ pub enum FitRemark {
     /// The series goes on after the last sample, by this share of its value there.
     #[error(
         "the data end at {} before the {} comes to rest: its equilibrium is assumed, {} from the last value of the fit; {}",
-        seconds(*last_s), name(*face), percent(*share), range(*face, *allowed)
+        seconds(*last_s), name(*function), percent(*share), range(*function, *allowed)
     )]
     Equilibrium {
-        face: MaterialFunction,
+        function: MaterialFunction,
         last_s: f64,
         share: f64,
         /// The lowest and the highest equilibrium value (1/Pa or Pa) of series that fit about as well.
@@ -108,16 +108,19 @@ impl FitRemark {
 }
 
 /// A creep compliance or relaxation modulus in five digits.
-fn five_digits(face: MaterialFunction, value: f64) -> String {
-    match face {
+fn five_digits(function: MaterialFunction, value: f64) -> String {
+    match function {
         MaterialFunction::Creep => format_human(value, Dimension::Compliance, 5),
         MaterialFunction::Relaxation => format_human(value, Dimension::Stress, 5),
     }
 }
 
 /// What a value at an end of time may be.
-fn range(face: MaterialFunction, (lowest, highest): (f64, f64)) -> String {
-    let (lowest, highest) = (five_digits(face, lowest), five_digits(face, highest));
+fn range(function: MaterialFunction, (lowest, highest): (f64, f64)) -> String {
+    let (lowest, highest) = (
+        five_digits(function, lowest),
+        five_digits(function, highest),
+    );
     format!("the data allow {lowest} to {highest}")
 }
 
@@ -142,7 +145,7 @@ impl fmt::Display for FitReport {
             formatter,
             "Fit of {} branch{plural} to the {kind} {}, {} samples from {} to {}",
             self.branches,
-            name(self.face),
+            name(self.function),
             self.samples,
             seconds(self.first_s),
             seconds(self.last_s),

@@ -30,7 +30,7 @@ const ABOUT_EQUAL: f64 = 2.0;
 
 /// What is fitted, and within which limits.
 pub(super) struct Search<'a> {
-    pub(super) face: MaterialFunction,
+    pub(super) function: MaterialFunction,
     /// Times in s, values, and how much heavier than a single sample each of them weighs.
     pub(super) times_s: &'a [f64],
     pub(super) values: &'a [f64],
@@ -57,8 +57,8 @@ pub(super) enum Open {
 
 /// What a branch contributes at x = t / time, and its derivative with respect to the logarithm of the branch time: `1 - exp(-x)` to a creep
 /// compliance, `exp(-x)` to a relaxation modulus.
-fn basis(face: MaterialFunction, x: f64) -> [f64; 2] {
-    match face {
+fn basis(function: MaterialFunction, x: f64) -> [f64; 2] {
+    match function {
         MaterialFunction::Creep => [-(-x).exp_m1(), -x * (-x).exp()],
         MaterialFunction::Relaxation => [(-x).exp(), x * (-x).exp()],
     }
@@ -66,19 +66,19 @@ fn basis(face: MaterialFunction, x: f64) -> [f64; 2] {
 
 impl Series {
     /// The value at a time.
-    pub(super) fn value(&self, face: MaterialFunction, time_s: f64) -> f64 {
+    pub(super) fn value(&self, function: MaterialFunction, time_s: f64) -> f64 {
         let branches = self.branches.iter();
         let delayed: f64 = branches
-            .map(|b| b.strength * basis(face, time_s / b.time_s)[0])
+            .map(|b| b.strength * basis(function, time_s / b.time_s)[0])
             .sum();
         self.constant + delayed + self.flow_per_s * time_s
     }
 
     /// The value in question; of the loss, the part of the branches.
-    pub(super) fn open(&self, face: MaterialFunction, open: Open) -> f64 {
+    pub(super) fn open(&self, function: MaterialFunction, open: Open) -> f64 {
         let branches = self.branches.iter();
         let delayed: f64 = branches
-            .map(|b| b.strength * open.of_branch(face, b.time_s))
+            .map(|b| b.strength * open.of_branch(function, b.time_s))
             .sum();
         self.constant * open.of_constant() + delayed
     }
@@ -91,14 +91,14 @@ impl Open {
     }
 
     /// How much of the strength of a branch of this time is.
-    fn of_branch(self, face: MaterialFunction, time_s: f64) -> f64 {
+    fn of_branch(self, function: MaterialFunction, time_s: f64) -> f64 {
         match self {
             Self::Loss(omega) => {
                 let x = omega * time_s;
                 x / (1.0 + x * x)
             }
-            Self::Equilibrium => f64::from(face == MaterialFunction::Creep),
-            Self::Instantaneous => f64::from(face == MaterialFunction::Relaxation),
+            Self::Equilibrium => f64::from(function == MaterialFunction::Creep),
+            Self::Instantaneous => f64::from(function == MaterialFunction::Relaxation),
         }
     }
 }
@@ -141,7 +141,7 @@ impl Search<'_> {
 
     /// The values as sums of strengths, each relative to itself and by its weight.
     fn linear(&self) -> Linear<'_> {
-        let creep = self.face == MaterialFunction::Creep;
+        let creep = self.function == MaterialFunction::Creep;
         let scales = self.weights.iter().zip(self.values);
         let scales: Vec<f64> = scales.map(|(weight, value)| weight / value).collect();
         let flow = scales.iter().zip(self.times_s).map(|(scale, t)| scale * t);
@@ -151,7 +151,7 @@ impl Search<'_> {
             flow: (creep && self.flow).then(|| DVector::from_iterator(scales.len(), flow)),
             has_constant: creep || !self.flow,
             scales,
-            basis: Box::new(|row, time_s| basis(self.face, self.times_s[row] / time_s)),
+            basis: Box::new(|row, time_s| basis(self.function, self.times_s[row] / time_s)),
         }
     }
 
@@ -206,7 +206,8 @@ impl Search<'_> {
             matrix[(row, 0)] = CONDITION / value * open.of_constant();
         }
         for (place, &time_s) in times.iter().enumerate() {
-            matrix[(row, first + place)] = CONDITION / value * open.of_branch(self.face, time_s);
+            matrix[(row, first + place)] =
+                CONDITION / value * open.of_branch(self.function, time_s);
         }
         let right = linear.values.push(CONDITION);
         Ok(linear.series(&times, &nnls(&matrix, &right)?))
@@ -276,7 +277,7 @@ impl Search<'_> {
     pub(super) fn squares(&self, series: &Series) -> f64 {
         let samples = self.times_s.iter().zip(self.values).zip(self.weights);
         samples
-            .map(|((&t, v), weight)| (weight * (series.value(self.face, t) / v - 1.0)).powi(2))
+            .map(|((&t, v), weight)| (weight * (series.value(self.function, t) / v - 1.0)).powi(2))
             .sum()
     }
 

@@ -27,8 +27,8 @@ const RUN: usize = 5;
 const FEW: usize = 10;
 
 /// ln C or -ln E: what must not fall.
-fn rising(face: MaterialFunction, values: &[f64]) -> Vec<f64> {
-    match face {
+fn rising(function: MaterialFunction, values: &[f64]) -> Vec<f64> {
+    match function {
         MaterialFunction::Creep => values.iter().map(|v| v.ln()).collect(),
         MaterialFunction::Relaxation => values.iter().map(|v| -v.ln()).collect(),
     }
@@ -40,10 +40,10 @@ fn share(fall: f64) -> f64 {
 }
 
 /// Samples on the wrong side of an earlier one.
-pub(super) fn noise(face: MaterialFunction, values: &[f64]) -> Option<TableWarning> {
+pub(super) fn noise(function: MaterialFunction, values: &[f64]) -> Option<TableWarning> {
     let mut highest = f64::NEG_INFINITY;
     let (mut samples, mut largest, mut row) = (0, 0.0, 0);
-    for (index, value) in rising(face, values).into_iter().enumerate() {
+    for (index, value) in rising(function, values).into_iter().enumerate() {
         if value < highest {
             samples += 1;
             if highest - value > largest {
@@ -53,7 +53,7 @@ pub(super) fn noise(face: MaterialFunction, values: &[f64]) -> Option<TableWarni
         highest = highest.max(value);
     }
     (samples > 0).then(|| TableWarning::Noise {
-        face,
+        function,
         samples,
         largest_share: share(largest),
         row,
@@ -62,15 +62,15 @@ pub(super) fn noise(face: MaterialFunction, values: &[f64]) -> Option<TableWarni
 
 /// Tells noise from what no passive material does.
 pub(super) fn check(
-    face: MaterialFunction,
+    function: MaterialFunction,
     times_s: &[f64],
     values: &[f64],
     groups: &Groups,
 ) -> Result<(), TableError> {
-    let (scatter, of_few) = scatter(times_s, &rising(face, values));
+    let (scatter, of_few) = scatter(times_s, &rising(function, values));
     // Where all change is rounded away, samples do not scatter.
     let scatter = scatter.max(rounding(values));
-    let rising = rising(face, &groups.values);
+    let rising = rising(function, &groups.values);
     let deviations: Vec<f64> = groups.weights().iter().map(|w| 1.0 / w).collect();
     // Few samples say little about their scatter, and what is looked for is part of it.
     let known = if of_few { 0.0 } else { scatter };
@@ -81,7 +81,7 @@ pub(super) fn check(
     let limit = |deviation| -(-most(deviation)).ln_1p();
     if let Some((size, from, to)) = fall_beyond(&rising, &deviations, limit) {
         return Err(TableError::Reversal {
-            face,
+            function,
             earlier_row: groups.starts[from] + 1,
             row: groups.starts[to] + 1,
             share: share(size),
@@ -102,7 +102,7 @@ pub(super) fn check(
         if let Some((size, from, to)) = fall_beyond(&medians, &deviations, limit) {
             let row = |place: usize| groups.starts[starts[place] + run / 2] + 1;
             return Err(TableError::Trend {
-                face,
+                function,
                 earlier_row: row(from),
                 row: row(to),
                 share: share(size),

@@ -128,7 +128,7 @@ fn replicas(material: &Material) -> Option<Setting> {
 
 /// The relaxation modulus of a material that was given by it.
 fn given_relaxation(material: &Material) -> Option<&Relaxation> {
-    let given = material.given() == MaterialFunction::Relaxation;
+    let given = material.function() == MaterialFunction::Relaxation;
     material.relaxation().filter(|_| given)
 }
 

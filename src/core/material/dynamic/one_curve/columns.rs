@@ -2,9 +2,10 @@
 
 use std::f64::consts::LN_10;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use crate::material::dynamic::normal_equations::{NormalEquations, Solution};
+use crate::material::harmonic::Debye;
+use crate::numerics::nnls::nnls_from;
 
 /// Distance of the logarithms of the times. Eight per decade: a branch between two is represented to a few tenths of a per cent.
 pub(super) const STEP: f64 = LN_10 / 8.0;
@@ -12,107 +13,99 @@ pub(super) const STEP: f64 = LN_10 / 8.0;
 /// In the place of a time: the equilibrium modulus.
 const EQUILIBRIUM: i64 = i64::MIN;
 
-/// Columns of the linear problem: the equilibrium modulus, and the moduli of the times.
+/// Keeps columns that are equal to rounding apart, as a share of their products.
+const RIDGE: f64 = 1e-11;
+
+/// A column is taken in where its gradient exceeds this, in standard deviations of the data.
+const GRADIENT_TOLERANCE: f64 = 1e-5;
+
+/// Columns of the equilibrium modulus and of the times of the grid, and the best moduli of them.
 pub(super) struct Columns {
+    /// Steps of the first time.
     first_time: i64,
-    times: usize,
-    lengths: Vec<f64>,
-    /// Of unit length.
     pub(super) matrix: DMatrix<f64>,
-    pub(super) equations: NormalEquations,
+    /// Pa.
+    pub(super) moduli: DVector<f64>,
 }
 
 impl Columns {
-    /// Columns of the equilibrium modulus and of this many times, those of the grid from the first on.
-    pub(super) fn new(
+    /// The best moduli for these values, found from the times on that are in use in a similar problem.
+    pub(super) fn solved(
         first_time: i64,
-        times: usize,
-        mut matrix: DMatrix<f64>,
-        right: &DVector<f64>,
+        matrix: DMatrix<f64>,
+        values: &DVector<f64>,
+        times: &[i64],
     ) -> Self {
-        let lengths: Vec<f64> = matrix.column_iter().map(|c| c.norm()).collect();
-        for (mut column, &length) in matrix.column_iter_mut().zip(&lengths) {
-            if length > 0.0 {
-                column /= length;
-            }
-        }
-        let count = matrix.ncols();
-        let mut products = DMatrix::zeros(count, count);
-        for i in 0..count {
-            for j in 0..=i {
-                let product = matrix.column(i).dot(&matrix.column(j));
-                products[(i, j)] = product;
-                products[(j, i)] = product;
-            }
-        }
+        let column = |&time: &i64| match time {
+            EQUILIBRIUM => Some(0),
+            _ => usize::try_from(time - first_time + 1)
+                .ok()
+                .filter(|&column| column > 0),
+        };
+        let start = times.iter().filter_map(column).collect();
+        // Of what is no number nothing is represented.
+        let moduli = nnls_from(&matrix, values, start, GRADIENT_TOLERANCE)
+            .unwrap_or_else(|_| DVector::zeros(matrix.ncols()));
         Self {
             first_time,
-            times,
-            lengths,
-            equations: NormalEquations {
-                products,
-                right: matrix.tr_mul(right),
-            },
             matrix,
+            moduli,
         }
     }
 
-    /// Storage and loss modulus of a solution (Pa) at a reduced angular frequency (natural logarithm), and their derivatives by it.
-    pub(super) fn modulus(&self, solution: &Solution, reduced: f64) -> [(f64, f64); 2] {
+    /// Columns whose modulus is not zero.
+    pub(super) fn used(&self) -> Vec<usize> {
+        let all = 0..self.moduli.len();
+        all.filter(|&column| self.moduli[column] > 0.0).collect()
+    }
+
+    /// Their times, in steps.
+    pub(super) fn times(&self) -> Vec<i64> {
+        let time = |column: usize| match column {
+            0 => EQUILIBRIUM,
+            _ => self.first_time + column as i64 - 1,
+        };
+        self.used().into_iter().map(time).collect()
+    }
+
+    /// Columns in use, and those of the times next to theirs.
+    pub(super) fn used_and_neighbours(&self) -> Vec<usize> {
+        let is_used = |column: usize| {
+            self.moduli
+                .get(column)
+                .is_some_and(|modulus| *modulus > 0.0)
+        };
+        let near = |column: usize| (column > 1 && is_used(column - 1)) || is_used(column + 1);
+        let all = 0..self.moduli.len();
+        all.filter(|&column| is_used(column) || (column > 0 && near(column)))
+            .collect()
+    }
+
+    /// Cholesky factor of the products of these columns.
+    pub(super) fn factor(&self, columns: &[usize]) -> Option<Cholesky<f64, Dyn>> {
+        let chosen = self.matrix.select_columns(columns);
+        let mut products = chosen.tr_mul(&chosen);
+        for place in 0..products.ncols() {
+            products[(place, place)] *= 1.0 + RIDGE;
+        }
+        Cholesky::new(products)
+    }
+
+    /// Storage and loss modulus (Pa) at a reduced angular frequency (natural logarithm), and their derivatives by it.
+    pub(super) fn modulus(&self, used: &[usize], reduced: f64) -> [(f64, f64); 2] {
         let mut modulus = [(0.0, 0.0); 2];
-        for (&column, &unit) in solution.columns.iter().zip(&solution.values) {
-            let value = unit / self.lengths[column];
+        for &column in used {
+            let value = self.moduli[column];
             let Some(k) = column.checked_sub(1) else {
                 modulus[0].0 += value;
                 continue;
             };
-            let x = (reduced + STEP * (self.first_time + k as i64) as f64).exp();
-            let share = x / (1.0 + x * x);
-            modulus[0].0 += value * x * share;
-            modulus[0].1 += value * 2.0 * share * share;
-            modulus[1].0 += value * share;
-            modulus[1].1 += value * share * (1.0 - x * x) / (1.0 + x * x);
+            let debye = Debye::at((reduced + STEP * (self.first_time + k as i64) as f64).exp());
+            modulus[0].0 += value * debye.frozen;
+            modulus[0].1 += value * debye.frozen_slope();
+            modulus[1].0 += value * debye.loss;
+            modulus[1].1 += value * debye.loss_slope();
         }
         modulus
-    }
-
-    pub(super) fn start(&self, times: &[i64]) -> Vec<usize> {
-        let known = times.iter().filter_map(|&time| match time {
-            EQUILIBRIUM => Some(0),
-            _ => {
-                let k = time - self.first_time;
-                (0..self.times as i64).contains(&k).then(|| 1 + k as usize)
-            }
-        });
-        known.collect()
-    }
-
-    /// These columns, and those of the times next to theirs.
-    pub(super) fn with_neighbours(&self, columns: &[usize]) -> Vec<usize> {
-        let is_time = |column: usize| (1..=self.times).contains(&column);
-        let near = |&column: &usize| {
-            let next = [column.saturating_sub(1), column + 1];
-            let next = next
-                .into_iter()
-                .filter(move |&other| is_time(column) && is_time(other));
-            next.chain([column])
-        };
-        let mut all: Vec<usize> = columns.iter().flat_map(near).collect();
-        all.sort_unstable();
-        all.dedup();
-        all
-    }
-
-    pub(super) fn times_of(&self, solution: &Solution) -> Vec<i64> {
-        let times = solution
-            .columns
-            .iter()
-            .filter(|&&column| column <= self.times);
-        times
-            .map(|&column| match column {
-                0 => EQUILIBRIUM,
-                _ => self.first_time + column as i64 - 1,
-            })
-            .collect()
     }
 }
