@@ -11,11 +11,9 @@ use super::frequency::{Fit, RecordModel};
 use super::noise::Noise;
 use super::quality::Finding;
 use super::quantities::{HARMONICS_OF_APPROACH, Quantity, Values};
-use super::signal::Sampling;
 use super::statistics::{Estimate, StandardError};
 use super::{MeasuredLoop, Options, Signal};
 use crate::cycle::Harmonics;
-use crate::numerics::order::upper_median;
 
 /// Parts of a cycle over which samples are averaged to be drawn.
 const PARTS: usize = 100;
@@ -36,26 +34,22 @@ pub(super) struct Mean<'a> {
     pub(super) used: &'a [usize],
     /// Samples of each of them.
     pub(super) ranges: Vec<Range<usize>>,
+    /// As the instrument gives it.
+    pub(super) raw: Harmonics,
+    /// Mean of the column of radii, where there is one.
+    pub(super) column_m: Option<f64>,
 }
 
-/// What the noise of the samples leaves uncertain.
-struct Errors {
-    of: [Option<StandardError>; Quantity::ALL.len()],
-    /// Signals whose steps count.
-    coarse: Vec<Finding>,
-}
+/// What the noise of the samples leaves uncertain of every quantity.
+type Errors = [Option<StandardError>; Quantity::ALL.len()];
 
 impl Mean<'_> {
     /// Fills in what a record has of it: means and errors, the mean cycle, points to be drawn, findings.
     pub(super) fn fill(&self, measured: &mut MeasuredLoop) {
-        let cycles = || self.used.iter().map(|place| &measured.cycles[*place]);
-        let mean = mean_cycle(cycles().map(|cycle| &cycle.raw));
-        let corrected = (self.options.corrections).applied(self.model.angular, &mean);
-        let radii = cycles().filter_map(|cycle| cycle.contact_radius_m);
-        let column_m = super::statistics::mean(&radii.collect::<Vec<f64>>());
-        self.remarks(&mean, &corrected, column_m, &mut measured.findings);
-        let center = (self.options).values(&corrected, column_m, self.model.angular);
-        let errors = self.errors((&mean, column_m), &center, &measured.sampling);
+        let corrected = self.corrected(&self.raw);
+        self.remarks(&corrected, &mut measured.findings);
+        let center = self.values(&self.raw);
+        let errors = self.errors(&center, measured).unwrap_or_default();
         for (place, (quantity, ..)) in Quantity::ALL.iter().enumerate() {
             let values = self.used.iter().map(|used| measured.values[*used][place]);
             let Some(mut values) = values.collect::<Option<Vec<f64>>>() else {
@@ -66,24 +60,27 @@ impl Mean<'_> {
                     .iter_mut()
                     .for_each(|v| *v = center + wrapped(*v - center));
             }
-            let errors = errors.as_ref().and_then(|errors| errors.of[place]);
-            measured.means[place] = Estimate::of(&values, errors);
+            measured.means[place] = Estimate::of(&values, errors[place]);
         }
         for (ratio, phase) in HARMONICS_OF_APPROACH {
             let places = [ratio.place(), phase.place()];
-            let known = places.map(|place| errors.as_ref().and_then(|errors| errors.of[place]));
-            let found = self.harmonic(&measured.values, places, known);
-            places
-                .iter()
-                .zip(found)
-                .for_each(|(place, mean)| measured.means[*place] = mean);
+            let [ratio, phase] = self.harmonic(&measured.values, places, &errors);
+            measured.means[places[0]] = ratio;
+            measured.means[places[1]] = phase;
         }
-        if let Some(errors) = errors {
-            measured.findings.extend(errors.coarse);
-        }
-        measured.points = self.points(measured, &mean, &corrected);
+        measured.points = self.points(measured, &corrected);
         self.take_out_bias(measured, &corrected);
         measured.mean_cycle = corrected;
+    }
+
+    fn corrected(&self, raw: &Harmonics) -> Harmonics {
+        self.options.corrections.applied(self.model.angular, raw)
+    }
+
+    /// Everything that is read from a cycle as the instrument gives it.
+    fn values(&self, raw: &Harmonics) -> Values {
+        let corrected = self.corrected(raw);
+        (self.options).values(&corrected, self.column_m, self.model.angular)
     }
 
     /// A harmonic of the approach over the first, and its phase. Its cycles are averaged as complex numbers: the magnitudes of what
@@ -92,7 +89,7 @@ impl Mean<'_> {
         &self,
         values: &[Values],
         [ratio, phase]: [usize; 2],
-        [of_ratio, of_phase]: [Option<StandardError>; 2],
+        errors: &Errors,
     ) -> [Option<Estimate>; 2] {
         let of_cycle = |used: &usize| {
             Some(Complex::from_polar(
@@ -107,6 +104,7 @@ impl Mean<'_> {
         let turn = Complex::cis(-mean.arg());
         let along: Vec<f64> = cycles.iter().map(|z| (z * turn).re).collect();
         let across: Vec<f64> = cycles.iter().map(|z| (z * turn).im / mean.norm()).collect();
+        let (of_ratio, of_phase) = (errors[ratio], errors[phase]);
         let mut ratio = Estimate::of(&along, of_ratio);
         let mut phase = Estimate::of(&across, of_phase).map(|of| Estimate {
             value: mean.arg(),
@@ -147,15 +145,9 @@ impl Mean<'_> {
         }
     }
 
-    fn remarks(
-        &self,
-        raw: &Harmonics,
-        corrected: &Harmonics,
-        column_m: Option<f64>,
-        findings: &mut Vec<Finding>,
-    ) {
+    fn remarks(&self, corrected: &Harmonics, findings: &mut Vec<Finding>) {
         let corrections = &self.options.corrections;
-        let share = corrections.share(self.model.angular, raw, corrected);
+        let share = corrections.share(self.model.angular, &self.raw, corrected);
         if let Some(ratio) = share.filter(|ratio| *ratio > DOMINATES) {
             findings.push(Finding::CorrectionDominates { ratio });
         }
@@ -168,50 +160,44 @@ impl Mean<'_> {
         if corrected.load_mean_n < corrected.load_n.first().map_or(0.0, |a| a.norm()) {
             findings.push(Finding::Pull);
         }
-        if let Err(reason) = contact.radius_m(corrected, column_m) {
+        if let Err(reason) = contact.radius_m(corrected, self.column_m) {
             findings.push(Finding::NoRadius { reason });
         }
     }
 
     /// Standard errors from the noise of the samples, carried through every formula: of the mean cycle fitted at once to all
     /// samples that count, drift included, so that what a drift leaves uncertain counts too.
-    fn errors(
-        &self,
-        (mean, column_m): (&Harmonics, Option<f64>),
-        center: &Values,
-        sampling: &Sampling,
-    ) -> Option<Errors> {
+    fn errors(&self, center: &Values, measured: &mut MeasuredLoop) -> Option<Errors> {
         let signal = self.used_samples();
-        let fits = self.model.fits(&signal)?;
-        let intervals = self.signal.time_s.windows(2).map(|w| w[1] - w[0]);
-        let interval_s = upper_median(intervals)?;
-        let mut squares = DVector::zeros(Quantity::ALL.len());
+        let sampling = measured.sampling;
+        let steps = [
+            ("load", sampling.load_step_n),
+            ("approach", sampling.approach_step_m),
+        ];
+        let mut variances = DVector::zeros(Quantity::ALL.len());
         let mut freedom = f64::INFINITY;
-        let mut coarse = Vec::new();
-        for (which, fit) in fits.iter().enumerate() {
-            let noise = self.model.noise(fit, &signal.time_s, interval_s);
+        let fits = self.model.fits(&signal)?;
+        for (which, (fit, (name, step))) in fits.iter().zip(steps).enumerate() {
+            let noise = self.model.noise(fit, &signal.time_s, sampling.interval_s);
             freedom = freedom.min(noise.freedom);
-            let steps = self.steps(&signal.time_s, (which, sampling), fit, &noise);
-            if steps > COARSE * noise.variance * noise.power(self.model.angular, 1) {
-                let (name, step) = step_of(which, sampling);
-                coarse.extend(step.map(|step| Finding::Quantised {
-                    signal: name.to_owned(),
-                    step,
-                }));
+            let mut rounding = 0.0;
+            if let Some(step) = step {
+                rounding = self.rounding(&signal.time_s, step, fit, &noise);
+                if rounding > COARSE * noise.variance * noise.power(self.model.angular, 1) {
+                    let signal = name.to_owned();
+                    measured.findings.push(Finding::Quantised { signal, step });
+                }
             }
-            let covariance = self.covariance(fit, &noise, steps);
-            let slopes = self.slopes(which, mean, column_m, (center, &covariance));
-            squares += (&slopes * covariance * slopes.transpose()).diagonal();
+            let covariance = self.covariance(fit, &noise, rounding);
+            let slopes = self.slopes(which, center, &covariance.diagonal());
+            variances += (&slopes * covariance * slopes.transpose()).diagonal();
         }
-        Some(Errors {
-            of: std::array::from_fn(|place| {
-                center[place].map(|_| StandardError {
-                    value: squares[place].max(0.0).sqrt(),
-                    freedom,
-                })
-            }),
-            coarse,
-        })
+        Some(std::array::from_fn(|place| {
+            center[place].map(|_| StandardError {
+                value: variances[place].max(0.0).sqrt(),
+                freedom,
+            })
+        }))
     }
 
     /// The samples of the cycles that count.
@@ -230,19 +216,10 @@ impl Mean<'_> {
     /// reach from step to step, the same phase of every cycle is rounded the same way, so that as many errors are independent as
     /// there are phases that are rounded differently; white noise of this variance in all samples does as much. B. Widrow's theorem
     /// says what noise leaves of it (B. Widrow, I. Kollar, M.-C. Liu, IEEE Trans. Instrum. Meas. 45, 1996, 353).
-    fn steps(
-        &self,
-        times_s: &[f64],
-        (which, sampling): (usize, &Sampling),
-        fit: &Fit,
-        noise: &Noise,
-    ) -> f64 {
+    fn rounding(&self, times_s: &[f64], step: f64, fit: &Fit, noise: &Noise) -> f64 {
         use std::f64::consts::{PI, TAU};
         /// More bins than these are not told apart.
         const BINS: f64 = 1e6;
-        let Some(step) = step_of(which, sampling).1 else {
-            return 0.0;
-        };
         let rounding = step * step / 12.0;
         let noise_squared = (noise.variance - rounding).max(0.0) / (step * step);
         let repeated = rounding * (-4.0 * PI * PI * noise_squared).exp();
@@ -261,11 +238,11 @@ impl Mean<'_> {
     }
 
     /// Covariance of mean and harmonics of one signal, with a further variance of every sample.
-    fn covariance(&self, fit: &Fit, noise: &Noise, steps: f64) -> DMatrix<f64> {
+    fn covariance(&self, fit: &Fit, noise: &Noise, rounding: f64) -> DMatrix<f64> {
         let inverse = fit.normal.inverse();
         let scale = |column: usize| {
             let power = noise.power(self.model.angular, column.div_ceil(2));
-            (noise.variance * power + steps).sqrt()
+            (noise.variance * power + rounding).sqrt()
         };
         let p = self.model.common();
         DMatrix::from_fn(p, p, |i, j| inverse[(i, j)] * scale(i) * scale(j))
@@ -274,23 +251,15 @@ impl Mean<'_> {
     /// Derivatives of every quantity (rows) by mean and harmonics of one signal (columns), by central differences over a part of the
     /// standard errors:
     /// the size of a harmonic that is smaller than its error has a slope only close by.
-    fn slopes(
-        &self,
-        which: usize,
-        mean: &Harmonics,
-        column_m: Option<f64>,
-        (center, covariance): (&Values, &DMatrix<f64>),
-    ) -> DMatrix<f64> {
+    fn slopes(&self, which: usize, center: &Values, variances: &DVector<f64>) -> DMatrix<f64> {
         let moved = |column: usize, by: f64| {
-            let mut moved = coefficients(mean);
+            let mut moved = coefficients(&self.raw);
             moved[which][column] += by;
-            let moved = of_coefficients(&moved);
-            let corrected = (self.options.corrections).applied(self.model.angular, &moved);
-            (self.options).values(&corrected, column_m, self.model.angular)
+            self.values(&of_coefficients(&moved))
         };
         let mut slopes = DMatrix::zeros(Quantity::ALL.len(), self.model.common());
         for (column, mut slopes) in slopes.column_iter_mut().enumerate() {
-            let step = 0.05 * covariance[(column, column)].sqrt();
+            let step = 0.05 * variances[column].sqrt();
             if !(step.is_finite() && step > 0.0) {
                 continue;
             }
@@ -309,14 +278,9 @@ impl Mean<'_> {
     }
 
     /// Averages over parts of the cycle: the corrected mean cycle, and what the samples have beside the harmonics.
-    fn points(
-        &self,
-        measured: &MeasuredLoop,
-        raw: &Harmonics,
-        corrected: &Harmonics,
-    ) -> Vec<(f64, f64)> {
+    fn points(&self, measured: &MeasuredLoop, corrected: &Harmonics) -> Vec<(f64, f64)> {
         let parts = PARTS.min(measured.points_per_cycle as usize).max(1);
-        let (load, approach) = raw.sampled(parts);
+        let (load, approach) = self.raw.sampled(parts);
         let (true_load, true_approach) = corrected.sampled(parts);
         let mut sums = vec![(0.0, 0.0, 0_usize); parts];
         let first_s = self.signal.time_s.first().copied().unwrap_or(0.0);
@@ -342,16 +306,8 @@ impl Mean<'_> {
     }
 }
 
-/// A signal by name, and the step of its values.
-fn step_of(which: usize, sampling: &Sampling) -> (&'static str, Option<f64>) {
-    match which {
-        0 => ("load", sampling.load_step_n),
-        _ => ("approach", sampling.approach_step_m),
-    }
-}
-
 /// The mean of cycles as the instrument gives them: their harmonics share one origin of time.
-fn mean_cycle<'a>(cycles: impl ExactSizeIterator<Item = &'a Harmonics>) -> Harmonics {
+pub(super) fn mean_cycle<'a>(cycles: impl ExactSizeIterator<Item = &'a Harmonics>) -> Harmonics {
     let count = cycles.len().max(1) as f64;
     let sum = cycles
         .map(coefficients)

@@ -5,80 +5,47 @@ use num_complex::Complex;
 
 use crate::cycle::{Extrema, Harmonics};
 
-/// A number of a cycle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
-    EnergyLoss,
-    PhaseLag,
-    LoadMean,
-    LoadAmplitude,
-    ApproachMean,
-    ApproachAmplitude,
-    Harmonic2,
-    Harmonic3,
-    Harmonic4,
-    Harmonic5,
-    HarmonicPhase2,
-    HarmonicPhase3,
-    HarmonicPhase4,
-    HarmonicPhase5,
-    ApproachMin,
-    ApproachMax,
-    ContactRadius,
-    StorageModulus,
-    LossModulus,
+macro_rules! quantities {
+    ($($quantity:ident: $column:literal, $name:literal;)*) => {
+        /// A number of a cycle.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum Quantity {
+            $($quantity,)*
+        }
+
+        impl Quantity {
+            /// In the order of their columns, each with its column in SI units and its name in sentences.
+            pub const ALL: [(Self, &'static str, &'static str); [$($column),*].len()] =
+                [$((Self::$quantity, $column, $name)),*];
+        }
+    };
 }
 
-use Quantity::{
-    ApproachAmplitude, ApproachMax, ApproachMean, ApproachMin, ContactRadius, EnergyLoss,
-    Harmonic2, Harmonic3, Harmonic4, Harmonic5, HarmonicPhase2, HarmonicPhase3, HarmonicPhase4,
-    HarmonicPhase5, LoadAmplitude, LoadMean, LossModulus, PhaseLag, StorageModulus,
-};
+quantities! {
+    EnergyLoss: "energy_loss_j", "energy loss";
+    PhaseLag: "phase_lag_rad", "phase lag";
+    LoadMean: "load_mean_n", "mean load";
+    LoadAmplitude: "load_amplitude_n", "amplitude of the load";
+    ApproachMean: "approach_mean_m", "mean approach";
+    ApproachAmplitude: "approach_amplitude_m", "amplitude of the approach";
+    Harmonic2: "harmonic_2", "second harmonic";
+    Harmonic3: "harmonic_3", "third harmonic";
+    Harmonic4: "harmonic_4", "fourth harmonic";
+    Harmonic5: "harmonic_5", "fifth harmonic";
+    HarmonicPhase2: "harmonic_2_phase_rad", "phase of the second harmonic";
+    HarmonicPhase3: "harmonic_3_phase_rad", "phase of the third harmonic";
+    HarmonicPhase4: "harmonic_4_phase_rad", "phase of the fourth harmonic";
+    HarmonicPhase5: "harmonic_5_phase_rad", "phase of the fifth harmonic";
+    ApproachMin: "approach_min_m", "smallest approach";
+    ApproachMax: "approach_max_m", "largest approach";
+    ContactRadius: "contact_radius_m", "contact radius";
+    StorageModulus: "storage_modulus_pa", "storage modulus";
+    LossModulus: "loss_modulus_pa", "loss modulus";
+}
+
+use Quantity::*;
 
 impl Quantity {
-    /// In the order of their columns, each with its column in SI units and its name in sentences.
-    pub const ALL: [(Self, &'static str, &'static str); 19] = [
-        (EnergyLoss, "energy_loss_j", "energy loss"),
-        (PhaseLag, "phase_lag_rad", "phase lag"),
-        (LoadMean, "load_mean_n", "mean load"),
-        (LoadAmplitude, "load_amplitude_n", "amplitude of the load"),
-        (ApproachMean, "approach_mean_m", "mean approach"),
-        (
-            ApproachAmplitude,
-            "approach_amplitude_m",
-            "amplitude of the approach",
-        ),
-        (Harmonic2, "harmonic_2", "second harmonic"),
-        (Harmonic3, "harmonic_3", "third harmonic"),
-        (Harmonic4, "harmonic_4", "fourth harmonic"),
-        (Harmonic5, "harmonic_5", "fifth harmonic"),
-        (
-            HarmonicPhase2,
-            "harmonic_2_phase_rad",
-            "phase of the second harmonic",
-        ),
-        (
-            HarmonicPhase3,
-            "harmonic_3_phase_rad",
-            "phase of the third harmonic",
-        ),
-        (
-            HarmonicPhase4,
-            "harmonic_4_phase_rad",
-            "phase of the fourth harmonic",
-        ),
-        (
-            HarmonicPhase5,
-            "harmonic_5_phase_rad",
-            "phase of the fifth harmonic",
-        ),
-        (ApproachMin, "approach_min_m", "smallest approach"),
-        (ApproachMax, "approach_max_m", "largest approach"),
-        (ContactRadius, "contact_radius_m", "contact radius"),
-        (StorageModulus, "storage_modulus_pa", "storage modulus"),
-        (LossModulus, "loss_modulus_pa", "loss modulus"),
-    ];
-
     /// Its place among the values of a cycle.
     pub fn place(self) -> usize {
         self as usize

@@ -7,13 +7,13 @@ use super::cycles::{self, Cycle};
 use super::drift::{Drift, DriftModel, Span};
 use super::frequency::{self, Frequency, RecordModel};
 use super::lines::{self, Rest};
-use super::mean::Mean;
+use super::mean::{Mean, mean_cycle};
 use super::moduli::Contact;
 use super::quality::Finding;
 use super::quantities::{Quantity, Values};
 use super::signal::Sampling;
 use super::stabilisation;
-use super::statistics::Estimate;
+use super::statistics::{self, Estimate};
 use super::{Corrections, HARMONICS, MeasuredError, Signal};
 use crate::cycle::Harmonics;
 use crate::numerics::order::upper_median;
@@ -123,12 +123,16 @@ pub fn analyse(signal: &Signal, options: &Options) -> Result<MeasuredLoop, Measu
     findings.extend(judged.findings);
     let used: Vec<usize> = judged.used.iter().map(|place| numbers[*place]).collect();
     let ranges = used.iter().map(|number| cut.ranges[number - 1].clone());
+    let counted = || judged.used.iter().map(|place| &cycles[*place]);
+    let radii = counted().filter_map(|cycle| cycle.contact_radius_m);
     let mean = Mean {
         model: &model,
         signal: &signal,
         ranges: ranges.collect(),
         options,
         used: &judged.used,
+        raw: mean_cycle(counted().map(|cycle| &cycle.raw)),
+        column_m: statistics::mean(&radii.collect::<Vec<f64>>()),
     };
     let mut measured = MeasuredLoop {
         points_per_cycle: period_s / sampling.interval_s,
