@@ -387,7 +387,7 @@ fn a_rough_contact_on_pmma_is_complementary_and_grows_as_the_body_creeps() {
     // A jump, then steps of growing length.
     for step_s in [0.0, 1.0, 2.0, 5.0, 10.0, 30.0, 100.0, 300.0] {
         let weights = march.weights(step_s);
-        compliance_per_pa = weights.compliance_per_pa();
+        compliance_per_pa = weights.compliance_per_pa;
         let load = Prescribed::LoadN(ROUGH_LOAD_N);
         let solution = march.step(&weights, load).unwrap();
         assert!(march.pressure().iter().all(|&p| p >= 0.0));

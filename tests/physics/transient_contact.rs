@@ -527,7 +527,7 @@ fn after_unloading_a_maxwell_body_keeps_its_dent_for_ever_and_a_zener_body_forge
             let weights = march.weights(step_s);
             let solution = march.step(&weights, Prescribed::LoadN(0.0)).unwrap();
             assert_eq!((solution.load_n, solution.contact_radius_m), (0.0, 0.0));
-            last = weights.compliance_per_pa();
+            last = weights.compliance_per_pa;
             dents.push(solution.approach_m);
         }
         drop(march);

@@ -3,10 +3,7 @@
 //! The change of such a branch over the cycle is a small difference of large numbers. Its sums here start from zero, so that they keep
 //! their digits, and are taken with the weights of the time rule, so that they are what the march itself does to the branch.
 
-use std::ops::Range;
-
-use super::memory::BranchWeights;
-use crate::contact::sums::add_scaled;
+use super::rule::{Recursion, StepWeights};
 
 /// Sums since a cycle began, per node.
 #[derive(Debug, Clone)]
@@ -38,30 +35,13 @@ impl CycleSums {
         &self.memory
     }
 
-    /// Takes in the pressure at the start of a step over these nodes, whose integral has the weight `flow_s` (s).
-    pub(super) fn predict(
-        &mut self,
-        nodes: &Range<usize>,
-        (branches, flow_s): (&[BranchWeights], f64),
-        old_pressure: &[f64],
-    ) {
-        add_scaled(&mut self.integral[nodes.clone()], flow_s, old_pressure);
-        let BranchWeights { decay, old, .. } = branches[self.branch];
-        let memory = self.memory[nodes.clone()].iter_mut();
-        for (m, p) in memory.zip(old_pressure) {
-            *m = decay * *m + old * p;
-        }
-    }
-
-    /// Takes in that at its end.
-    pub(super) fn commit(
-        &mut self,
-        nodes: &Range<usize>,
-        (branches, flow_s): (&[BranchWeights], f64),
-        new_pressure: &[f64],
-    ) {
-        add_scaled(&mut self.integral[nodes.clone()], flow_s, new_pressure);
-        let new = branches[self.branch].new;
-        add_scaled(&mut self.memory[nodes.clone()], new, new_pressure);
+    /// The sums as memory variables, with their weights in a step.
+    pub(super) fn fields<'s>(
+        &'s mut self,
+        step: &'s StepWeights,
+    ) -> impl Iterator<Item = (&'s mut [f64], &'s Recursion)> {
+        let weights = step.weights.last().into_iter();
+        let fields = [&mut self.integral[..], &mut self.memory[..]].into_iter();
+        fields.zip(weights.chain(step.weights.get(self.branch)))
     }
 }

@@ -13,8 +13,8 @@
 //! S. Spinu, Advances in Tribology 2018, 9432894, and of first order. A jump of the drive is a step of length zero. In a
 //! damped step ([`Hereditary::stages`]) part of the increment comes at the step's begin, where it counts with C(t_n - t_(k-1)).
 
-use super::hereditary::{DirectStep, Hereditary, PastState, Stage, TimeRule};
-use crate::material::Creep;
+use super::hereditary::{Hereditary, PastState};
+use super::rule::{DirectWeights, Stage, Step, TimeRule};
 use crate::material::interpolant::Interpolant;
 
 /// A contact compliance C(t) as the direct sum needs it.
@@ -28,33 +28,6 @@ pub trait ComplianceFunction: Send {
 
     /// The shortest time (s) at which C changes, where there is one.
     fn shortest_time_s(&self) -> Option<f64>;
-}
-
-impl ComplianceFunction for Creep {
-    fn compliance_per_pa(&self, lag_s: f64) -> f64 {
-        self.compliance(lag_s)
-    }
-
-    fn mean_per_pa(&self, from_s: f64, to_s: f64) -> f64 {
-        let delayed = self.branches().iter().map(|branch| {
-            let (from, length) = (from_s / branch.time_s, (to_s - from_s) / branch.time_s);
-            // Mean of exp(-x) over the interval.
-            let left = if length > 0.0 {
-                (-from).exp() * (-(-length).exp_m1() / length)
-            } else {
-                (-from).exp()
-            };
-            branch.compliance_per_pa * (1.0 - left)
-        });
-        let flow = self
-            .viscosity_pa_s()
-            .map_or(0.0, |eta| 0.5 * (from_s + to_s) / eta);
-        self.instantaneous_compliance() + delayed.sum::<f64>() + flow
-    }
-
-    fn shortest_time_s(&self) -> Option<f64> {
-        self.branches().first().map(|branch| branch.time_s)
-    }
 }
 
 impl ComplianceFunction for Interpolant {
@@ -71,18 +44,21 @@ impl ComplianceFunction for Interpolant {
     }
 }
 
+/// A step of the direct sum.
+type DirectStep = Step<DirectWeights>;
+
 impl DirectStep {
     /// What a unit increment of this step has become (1/Pa) when `lag_s` have passed since the step's end.
     fn weight_per_pa(&self, compliance: &impl ComplianceFunction, lag_s: f64) -> f64 {
         let begun_s = lag_s + self.step_s;
-        let by_rule = match self.rule {
+        let by_rule = match self.weights.rule {
             TimeRule::Linear => compliance.mean_per_pa(lag_s, begun_s),
             TimeRule::Constant => compliance.compliance_per_pa(lag_s),
         };
-        if self.at_once == 0.0 {
-            return by_rule;
+        match self.weights.at_once {
+            0.0 => by_rule,
+            at_once => by_rule + at_once * (compliance.compliance_per_pa(begun_s) - by_rule),
         }
-        by_rule + self.at_once * (compliance.compliance_per_pa(begun_s) - by_rule)
     }
 }
 
@@ -114,28 +90,16 @@ impl<C: ComplianceFunction> DirectMemory<C> {
             last: vec![0.0; nodes],
         }
     }
-
-    /// The contact compliance C(t).
-    pub fn compliance(&self) -> &C {
-        &self.compliance
-    }
-
-    /// Bytes held: eight per node and step, and a little.
-    pub fn bytes(&self) -> usize {
-        (self.increments.len() + self.last.len()) * size_of::<f64>()
-            + self.steps.len() * size_of::<DirectStep>()
-    }
 }
 
 impl<C: ComplianceFunction> Hereditary for DirectMemory<C> {
-    type Step = DirectStep;
+    type Weights = DirectWeights;
 
     fn weights(&self, step_s: f64, rule: TimeRule) -> DirectStep {
         let mut step = DirectStep {
             step_s,
-            rule,
             compliance_per_pa: 0.0,
-            at_once: 0.0,
+            weights: DirectWeights { rule, at_once: 0.0 },
         };
         step.compliance_per_pa = step.weight_per_pa(&self.compliance, 0.0);
         step
@@ -143,31 +107,15 @@ impl<C: ComplianceFunction> Hereditary for DirectMemory<C> {
 
     /// One stage. Where the linear rule would ring, what the step leaves of the old pressure is kept below half of what the new one does at
     /// once, which makes it of first order there. The constant rule does not ring, and stays as it is.
-    fn stages(&self, step_s: f64, rule: TimeRule) -> Vec<Stage<DirectStep>> {
-        let step = self.weights(step_s, rule);
-        if rule == TimeRule::Constant {
-            return vec![Stage::whole(step)];
-        }
+    fn stages(&self, step_s: f64, rule: TimeRule) -> Vec<Stage<DirectWeights>> {
+        let mut step = self.weights(step_s, rule);
         let old = self.compliance.compliance_per_pa(step_s) - step.compliance_per_pa;
         let allowed = 0.5 * self.compliance.compliance_per_pa(0.0);
-        if old <= allowed {
-            return vec![Stage::whole(step)];
+        if rule == TimeRule::Linear && old > allowed {
+            step.weights.at_once = 1.0 - allowed / old;
+            step.compliance_per_pa += step.weights.at_once * old;
         }
-        let at_once = 1.0 - allowed / old;
-        let damped = DirectStep {
-            at_once,
-            compliance_per_pa: step.compliance_per_pa + at_once * old,
-            ..step
-        };
-        vec![Stage::whole(damped)]
-    }
-
-    fn compliance_per_pa(step: &DirectStep) -> f64 {
-        step.compliance_per_pa
-    }
-
-    fn step_s(step: &DirectStep) -> f64 {
-        step.step_s
+        vec![Stage::whole(step)]
     }
 
     fn predict(&mut self, step: &DirectStep, old_pressure: &[f64], history: &mut [f64]) {
@@ -221,11 +169,39 @@ impl<C: ComplianceFunction> Hereditary for DirectMemory<C> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::rule::StepWeights;
     use super::*;
-    use crate::history::{Memory, StepWeights};
+    use crate::history::Memory;
     use crate::material::{
-        CreepBranch, MaterialFunction, ModulusKind, library, tabulated::Tabulated,
+        Creep, CreepBranch, MaterialFunction, ModulusKind, library, tabulated::Tabulated,
     };
+
+    impl ComplianceFunction for Creep {
+        fn compliance_per_pa(&self, lag_s: f64) -> f64 {
+            self.compliance(lag_s)
+        }
+
+        fn mean_per_pa(&self, from_s: f64, to_s: f64) -> f64 {
+            let delayed = self.branches().iter().map(|branch| {
+                let (from, length) = (from_s / branch.time_s, (to_s - from_s) / branch.time_s);
+                // Mean of exp(-x) over the interval.
+                let left = if length > 0.0 {
+                    (-from).exp() * (-(-length).exp_m1() / length)
+                } else {
+                    (-from).exp()
+                };
+                branch.compliance_per_pa * (1.0 - left)
+            });
+            let flow = self
+                .viscosity_pa_s()
+                .map_or(0.0, |eta| 0.5 * (from_s + to_s) / eta);
+            self.instantaneous_compliance() + delayed.sum::<f64>() + flow
+        }
+
+        fn shortest_time_s(&self) -> Option<f64> {
+            self.branches().first().map(|branch| branch.time_s)
+        }
+    }
 
     /// Any function of the lag (s), in 1/Pa, with means by quadrature: smooth on the scale of `shortest_time_s` near lag zero,
     /// and on that of the lag itself beyond.
@@ -285,7 +261,7 @@ mod tests {
 
     fn march_with<M: Hereditary>(
         mut memory: M,
-        weights: impl Fn(&M, f64) -> M::Step,
+        weights: impl Fn(&M, f64) -> Step<M::Weights>,
         steps: &[f64],
     ) -> Vec<f64> {
         let pressure = |time: f64, jumps: f64| {
@@ -306,7 +282,7 @@ mod tests {
             jumps += f64::from(step == 0.0);
             p = pressure(time, jumps);
             memory.commit(&weights, &p);
-            let a = M::compliance_per_pa(&weights);
+            let a = weights.compliance_per_pa;
             q.extend(history.iter().zip(p).map(|(h, p)| h + a * p));
         }
         q
@@ -387,7 +363,7 @@ mod tests {
             held.predict(&weights, &[last], &mut history);
             (time, last) = (time + step, 2.0);
             held.commit(&weights, &[last]);
-            let q = DirectMemory::<Creep>::compliance_per_pa(&weights) * last + history[0];
+            let q = weights.compliance_per_pa * last + history[0];
             assert!((q / (2.0 * creep.compliance(time)) - 1.0).abs() < 1e-14);
         }
         // The force of a spring whose shortening is held falls to what the equilibrium leaves of it.
@@ -396,7 +372,7 @@ mod tests {
         for step in [vec![0.0], vec![0.1; 200]].concat() {
             let weights = damped(&relaxing, step);
             relaxing.predict(&weights, &[force], &mut history);
-            force = (1e-9 - history[0]) / DirectMemory::<Creep>::compliance_per_pa(&weights);
+            force = (1e-9 - history[0]) / weights.compliance_per_pa;
             relaxing.commit(&weights, &[force]);
             forces.push(force);
         }
@@ -436,8 +412,7 @@ mod tests {
             time += step;
             p = time;
             memory.commit(&weights, &[p]);
-            let q = DirectMemory::<Quadrature<fn(f64) -> f64>>::compliance_per_pa(&weights) * p
-                + history[0];
+            let q = weights.compliance_per_pa * p + history[0];
             // Five points over a factor of two in the lag.
             assert!(
                 (q / (time.powf(n + 1.0) / (n + 1.0)) - 1.0).abs() < 1e-8,
@@ -485,10 +460,11 @@ mod tests {
             time += step;
             p = 3.0;
             memory.commit(&weights, &[p]);
-            let q = DirectMemory::<Interpolant>::compliance_per_pa(&weights) * p + history[0];
+            let q = weights.compliance_per_pa * p + history[0];
             assert!((q / (3.0 * curve.value(time)) - 1.0).abs() < 1e-14);
         }
-        assert_eq!(memory.bytes(), 5 * 8 + 4 * size_of::<DirectStep>());
+        let PastState { nodal, steps } = memory.state();
+        assert_eq!((nodal.concat().len(), steps.len()), (5, 4));
     }
 
     #[test]
@@ -509,6 +485,6 @@ mod tests {
         assert!((creep.mean_per_pa(a, b) / creep.compliance(a) - 1.0).abs() < 1e-11);
         assert_eq!(creep.mean_per_pa(2.0, 2.0), creep.compliance(2.0));
         let weights = StepWeights::new(&creep, 0.7, TimeRule::Linear);
-        assert!((creep.mean_per_pa(0.0, 0.7) / weights.compliance_per_pa() - 1.0).abs() < 1e-14);
+        assert!((creep.mean_per_pa(0.0, 0.7) / weights.compliance_per_pa - 1.0).abs() < 1e-14);
     }
 }

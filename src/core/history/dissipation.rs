@@ -12,8 +12,8 @@
 //!
 //! Where the indenter touches, the surface moves with it, so that the work it does per node is the integral of p d(delta).
 
-use super::hereditary::TimeRule;
 use super::memory::Memory;
+use super::rule::TimeRule;
 use crate::contact::{ContactError, Engine};
 use crate::material::Creep;
 

@@ -6,9 +6,7 @@ use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::{Response, Surface};
 use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution};
 use crate::history::extrapolation::Extrapolation;
-use crate::history::{
-    Dissipation, Hereditary, Memory, PastState, Stage, StepWeights, TimeRule, Work,
-};
+use crate::history::{Dissipation, Hereditary, Memory, PastState, Stage, Step, TimeRule, Work};
 use crate::material::Creep;
 
 /// A contact moving through time, its past kept as memory variables or, as [`DirectMemory`](super::DirectMemory), in full.
@@ -74,13 +72,13 @@ impl<'a, M: Hereditary> March<'a, M> {
     }
 
     /// Weights of a step of this length, to be used for as many equal steps as there are.
-    pub fn weights(&self, step_s: f64) -> M::Step {
+    pub fn weights(&self, step_s: f64) -> Step<M::Weights> {
         self.memory.weights(step_s, self.rule)
     }
 
     /// The stages of a step of this length, to be used for as many equal steps as there are: one, or, for a body in which that
-    /// would ring, two ([`StepWeights::damped_stages`]).
-    pub fn stages(&self, step_s: f64) -> Vec<Stage<M::Step>> {
+    /// would ring, two ([`StepWeights::damped_stages`](super::StepWeights::damped_stages)).
+    pub fn stages(&self, step_s: f64) -> Vec<Stage<M::Weights>> {
         self.memory.stages(step_s, self.rule)
     }
 
@@ -90,7 +88,7 @@ impl<'a, M: Hereditary> March<'a, M> {
     /// As [`March::step`].
     pub fn step_in_stages(
         &mut self,
-        stages: &[Stage<M::Step>],
+        stages: &[Stage<M::Weights>],
         drive: impl Fn(f64) -> Prescribed,
     ) -> Result<(), ContactError> {
         for stage in stages {
@@ -105,7 +103,7 @@ impl<'a, M: Hereditary> March<'a, M> {
     /// [`ContactError`]; the march cannot go on after it.
     pub fn step(
         &mut self,
-        weights: &M::Step,
+        weights: &Step<M::Weights>,
         prescribed: Prescribed,
     ) -> Result<Solution, ContactError> {
         self.begin_step(weights);
@@ -114,11 +112,11 @@ impl<'a, M: Hereditary> March<'a, M> {
 
     /// First half of a step: everything that is known before the instant at its end is solved. [`March::pressure`] is then the
     /// guess of the pressure there.
-    pub fn begin_step(&mut self, weights: &M::Step) {
+    pub fn begin_step(&mut self, weights: &Step<M::Weights>) {
         self.memory
             .predict(weights, &self.pressure, &mut self.history);
         if let Some(extrapolation) = &mut self.extrapolation {
-            extrapolation.guess(M::step_s(weights), &mut self.pressure);
+            extrapolation.guess(weights.step_s, &mut self.pressure);
         }
     }
 
@@ -128,17 +126,17 @@ impl<'a, M: Hereditary> March<'a, M> {
     /// As [`March::step`]. After [`ContactError::Interrupted`] all is as it was but the pressure: the guess is lost.
     pub fn end_step(
         &mut self,
-        weights: &M::Step,
+        weights: &Step<M::Weights>,
         prescribed: Prescribed,
     ) -> Result<Solution, ContactError> {
         let instant = Instant {
             history: &self.history,
-            compliance_per_pa: M::compliance_per_pa(weights),
+            compliance_per_pa: weights.compliance_per_pa,
             prescribed,
         };
         let solution = self.engine.solve(&instant, &mut self.pressure)?;
         self.memory.commit(weights, &self.pressure);
-        self.compliance_per_pa = M::compliance_per_pa(weights);
+        self.compliance_per_pa = weights.compliance_per_pa;
         Ok(self.count(solution))
     }
 
@@ -342,7 +340,7 @@ impl March<'_> {
     /// As [`March::step`].
     pub fn step_dissipating(
         &mut self,
-        stages: &[Stage<StepWeights>],
+        stages: &[Stage],
         drive: impl Fn(f64) -> Prescribed,
         dissipation: &mut Dissipation,
     ) -> Result<(), ContactError> {

@@ -1,252 +1,27 @@
-//! Memory variables of every node, and the weights that carry them over a time step of any length.
+//! Memory variables of every node, carried over time steps by the weights of the rule.
 
 use std::ops::Range;
 
 use multiversion::multiversion;
 
 use super::cycle_sums::CycleSums;
-use super::hereditary::{Hereditary, PastState, Stage, TimeRule};
+use super::hereditary::{Hereditary, PastState};
+use super::rule::{Recursion, Stage, StepWeights, TimeRule, compliances, rings};
 use crate::contact::sums;
 use crate::material::Creep;
-use crate::numerics::roots::bisect;
 
-/// Weights of one branch over one step: m <- decay m + old p_old + new p_new.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct BranchWeights {
-    pub decay: f64,
-    pub old: f64,
-    pub new: f64,
-}
-
-/// What a step of one length does to the memory; computed once per step length, used for every node.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StepWeights {
-    step_s: f64,
-    branches: Vec<BranchWeights>,
-    flow_old_s: f64,
-    flow_new_s: f64,
-    compliance_per_pa: f64,
-}
-
-impl StepWeights {
-    /// Weights of a step of `step_s` seconds, zero for a jump, of this contact compliance.
-    pub fn new(compliance: &Creep, step_s: f64, rule: TimeRule) -> Self {
-        let branches = compliance.branches().iter();
-        let weights = branches
-            .map(|branch| BranchWeights::new(step_s / branch.time_s, rule))
-            .collect();
-        let flow_s = match rule {
-            TimeRule::Linear => (0.5 * step_s, 0.5 * step_s),
-            TimeRule::Constant => (step_s, 0.0),
-        };
-        Self::of(compliance, step_s, weights, flow_s)
-    }
-
-    fn of(
-        compliance: &Creep,
-        step_s: f64,
-        branches: Vec<BranchWeights>,
-        (flow_old_s, flow_new_s): (f64, f64),
-    ) -> Self {
-        let of_branches = compliance.branches().iter().zip(&branches);
-        let delayed: f64 = of_branches
-            .map(|(branch, weights)| branch.compliance_per_pa * weights.new)
-            .sum();
-        let flow = compliance
-            .viscosity_pa_s()
-            .map_or(0.0, |eta| flow_new_s / eta);
-        Self {
-            step_s,
-            branches,
-            flow_old_s,
-            flow_new_s,
-            compliance_per_pa: compliance.instantaneous_compliance() + delayed + flow,
-        }
-    }
-
-    /// By how much a pressure that is one too high makes the next one too low, at least: what the old pressure left, over A.
-    fn ringing(&self, compliance: &Creep) -> f64 {
-        let branches = compliance.branches().iter().zip(&self.branches);
-        let left: f64 = branches.map(|(b, w)| b.compliance_per_pa * w.old).sum();
-        left / self.compliance_per_pa
-    }
-
-    /// The two stages of a step in which nothing rings.
-    ///
-    /// Over the step the pressure is linear through its values at a third of the step and at the end, the nodes of the two-stage
-    /// Radau IIA method (E. Hairer and G. Wanner, Solving Ordinary Differential Equations II, section IV.5), so that the pressure
-    /// before the step has no weight. The first stage only serves to find the former. In it the pressure is constant, and what
-    /// that gives is the pressure at a place within the stage: at its end where the body answers like a spring, in its middle
-    /// where the stage is long beside the relaxation and the body answers like a dashpot. How long the stage is follows from
-    /// that: between a third and two thirds of the step, such that the place is the third. The second stage replaces what the
-    /// first did to the memory.
-    ///
-    /// The rule is exact for a pressure that is constant within a step, of third order where steps resolve the relaxation and of
-    /// second where they do not, and rings by 0.03 a step at the most. A load is prescribed where the pressure belongs, an
-    /// approach where the stage ends.
-    pub fn damped_stages(compliance: &Creep, step_s: f64) -> [Stage<Self>; 2] {
-        let first_end = first_stage_end(compliance, step_s);
-        let first = |z: f64| BranchWeights {
-            decay: (-first_end * z).exp(),
-            old: 0.0,
-            new: -(-first_end * z).exp_m1(),
-        };
-        let rest = 1.0 - FIRST_NODE;
-        let second = |z: f64| {
-            let decay = (-(1.0 - first_end) * z).exp();
-            let (constant, linear) = (-(-z).exp_m1(), linear_weight(z));
-            BranchWeights {
-                decay,
-                old: (constant - linear) / rest - decay * first(z).new,
-                new: (linear - FIRST_NODE * constant) / rest,
-            }
-        };
-        let stage = |length: f64, weights: &dyn Fn(f64) -> BranchWeights, flow_s: (f64, f64)| {
-            let branches = compliance.branches().iter();
-            let weights = branches.map(|b| weights(step_s / b.time_s)).collect();
-            Self::of(compliance, length * step_s, weights, flow_s)
-        };
-        let (half_s, first_s) = (0.5 * step_s, first_end * step_s);
-        let second_flow_s = (
-            half_s / rest - first_s,
-            (half_s - FIRST_NODE * step_s) / rest,
-        );
-        [
-            Stage {
-                end: first_end,
-                pressure_at: FIRST_NODE,
-                weights: stage(first_end, &first, (0.0, first_s)),
-            },
-            Stage {
-                end: 1.0,
-                pressure_at: 1.0,
-                weights: stage(1.0 - first_end, &second, second_flow_s),
-            },
-        ]
-    }
-
-    /// Length of the step (s).
-    pub fn step_s(&self) -> f64 {
-        self.step_s
-    }
-
-    /// A (1/Pa): the compliance that multiplies the pressure at the end of the step.
-    pub fn compliance_per_pa(&self) -> f64 {
-        self.compliance_per_pa
-    }
-}
-
-impl BranchWeights {
-    /// The exponential recursion of the hereditary integral (R. L. Taylor, K. S. Pister and G. L. Goudreau, Int. J. Numer. Meth.
-    /// Engng 2 (1970) 45). With z = step/lambda and e = exp(-z): new = 1 - (1 - e)/z and old = (1 - e)/z - e under the linear rule.
-    fn new(z: f64, rule: TimeRule) -> Self {
-        let decay = (-z).exp();
-        let grown = -(-z).exp_m1();
-        match rule {
-            TimeRule::Constant => Self {
-                decay,
-                old: grown,
-                new: 0.0,
-            },
-            TimeRule::Linear => {
-                let new = linear_weight(z);
-                Self {
-                    decay,
-                    old: grown - new,
-                    new,
-                }
-            }
-        }
-    }
-}
-
-/// Where the pressure of the first stage of a damped step belongs, as a fraction of the step.
-const FIRST_NODE: f64 = 1.0 / 3.0;
-
-/// Where the first stage of a damped step ends, as a fraction of the step.
-///
-/// A pressure that is linear over a stage and one that is constant give the same shortening at its end where the constant is
-/// the linear one's value at the fraction 1 - rho of the stage, rho being what the linear rule's old pressures weigh beside A of
-/// the constant one.
-fn first_stage_end(compliance: &Creep, step_s: f64) -> f64 {
-    /// Halvings of the interval; the order of the rule feels no more.
-    const HALVINGS: u32 = 24;
-    let place = |end: f64| {
-        let (mut old, mut all) = (0.0, compliance.instantaneous_compliance());
-        for branch in compliance.branches() {
-            let z = end * step_s / branch.time_s;
-            let constant = -(-z).exp_m1();
-            old += branch.compliance_per_pa * (constant - linear_weight(z));
-            all += branch.compliance_per_pa * constant;
-        }
-        if let Some(eta) = compliance.viscosity_pa_s() {
-            old += 0.5 * end * step_s / eta;
-            all += end * step_s / eta;
-        }
-        end * (1.0 - old / all)
-    };
-    let is_before = |end: f64| place(end) <= FIRST_NODE;
-    let (low, high) = bisect(FIRST_NODE, 2.0 * FIRST_NODE, HALVINGS, is_before);
-    0.5 * (low + high)
-}
-
-/// Above this a pressure that is linear over a step rings too long for a body.
-const LARGEST_RINGING: f64 = 0.25;
-
-/// The highest order in the time steps to be believed of a march on this compliance by the linear rule. In stages it is the third
-/// where steps resolve the relaxation and the second where they do not, and what is seen of it may lie on either side.
-pub fn order_of_steps(compliance: &Creep) -> f64 {
-    match rings(compliance) {
-        true => 2.5,
-        false => 2.0,
-    }
-}
-
-/// Whether steps of some length make a pressure that is linear within each of them ring: where one step is too high the next is
-/// too low. That of a trapezium, it does so where steps are long beside the time in which a pressure relaxes, which is shorter
-/// than the retardation time by the ratio of the moduli.
-fn rings(compliance: &Creep) -> bool {
-    const PER_DECADE: f64 = 6.0;
-    if compliance.viscosity_pa_s().is_some() {
-        return true;
-    }
-    let branches = compliance.branches();
-    let (Some(first), Some(last)) = (branches.first(), branches.last()) else {
-        return false;
-    };
-    let decades = (last.time_s / first.time_s).log10() + 2.0;
-    let steps = 0..=(PER_DECADE * decades) as i32;
-    let step_s = |k: i32| 0.1 * first.time_s * 10_f64.powf(f64::from(k) / PER_DECADE);
-    let ringing =
-        |k: i32| StepWeights::new(compliance, step_s(k), TimeRule::Linear).ringing(compliance);
-    steps.map(ringing).any(|ringing| ringing > LARGEST_RINGING)
-}
-
-/// 1 - (1 - exp(-z))/z, by its Taylor series where the difference would lose digits.
-fn linear_weight(z: f64) -> f64 {
-    // At z = 0.3 the difference loses less than one digit; ten terms of the series leave 0.3^10 / 11! = 1e-13 of the first.
-    if z > 0.3 {
-        return 1.0 + (-z).exp_m1() / z;
-    }
-    let (mut term, mut sum) = (0.5 * z, 0.0);
-    for n in 3..=13 {
-        sum += term;
-        term *= -z / f64::from(n);
-    }
-    sum
-}
-
-/// Memory variables and last pressure of every node.
+/// Memory variables of every node.
 #[derive(Debug, Clone)]
 pub struct Memory {
     nodes: usize,
     compliance: Creep,
     /// Whether steps are to be taken in two stages.
     rings: bool,
-    /// Branch-major: the memory of branch j fills `nodes` values from `j * nodes`.
-    branches: Vec<f64>,
-    /// Integral of the pressure over time per node; empty without a flow term.
-    flow: Vec<f64>,
+    /// What each field adds to the hereditary integral.
+    compliances: Vec<f64>,
+    /// One after another, `nodes` values each: the memory of every branch and, where there is a flow term, the integral of the
+    /// pressure over time.
+    fields: Vec<f64>,
     /// Where asked for by [`Memory::begin_cycle`].
     cycle: Option<CycleSums>,
 }
@@ -254,15 +29,11 @@ pub struct Memory {
 impl Memory {
     /// The undisturbed state of `nodes` nodes under this contact compliance C(t) (1/Pa).
     pub fn new(compliance: Creep, nodes: usize) -> Self {
-        let flow = if compliance.viscosity_pa_s().is_some() {
-            vec![0.0; nodes]
-        } else {
-            Vec::new()
-        };
+        let compliances: Vec<f64> = compliances(&compliance).collect();
         Self {
             nodes,
-            branches: vec![0.0; nodes * compliance.branches().len()],
-            flow,
+            fields: vec![0.0; nodes * compliances.len()],
+            compliances,
             cycle: None,
             rings: rings(&compliance),
             compliance,
@@ -272,11 +43,6 @@ impl Memory {
     /// The contact compliance C(t).
     pub fn compliance(&self) -> &Creep {
         &self.compliance
-    }
-
-    /// Bytes held.
-    pub fn bytes(&self) -> usize {
-        (self.branches.len() + self.flow.len()) * size_of::<f64>()
     }
 
     /// Begins sums over a cycle, of this branch.
@@ -291,7 +57,11 @@ impl Memory {
 
     /// Memory variables, branch-major, in the unit of the nodal pressure.
     pub fn variables(&self) -> &[f64] {
-        &self.branches
+        &self.fields[..self.nodes * self.compliance.branches().len()]
+    }
+
+    fn variables_mut(&mut self) -> &mut [f64] {
+        &mut self.fields[..self.nodes * self.compliance.branches().len()]
     }
 
     /// The compliance after all branches have relaxed, without flow.
@@ -303,82 +73,63 @@ impl Memory {
 
     /// Every branch remembers this pressure as if it had always been there.
     pub(super) fn fill_all_branches(&mut self, pressure: &[f64]) {
-        for memory in self.branches.chunks_exact_mut(self.nodes) {
+        let nodes = self.nodes;
+        for memory in self.variables_mut().chunks_exact_mut(nodes) {
             memory.copy_from_slice(pressure);
         }
     }
 
     /// Takes over variables as [`Memory::variables`] gave them.
     pub(super) fn recall(&mut self, variables: &[f64]) {
-        self.branches.copy_from_slice(variables);
+        self.variables_mut().copy_from_slice(variables);
+    }
+
+    /// Every field with its weights in a step and what it adds to the hereditary integral, the sums over a cycle among them.
+    fn fields<'s>(
+        &'s mut self,
+        step: &'s StepWeights,
+    ) -> impl Iterator<Item = (&'s mut [f64], &'s Recursion, f64)> {
+        let fields = self.fields.chunks_exact_mut(self.nodes).zip(&step.weights);
+        let fields = fields.zip(&self.compliances);
+        let of_cycle = self.cycle.iter_mut().flat_map(|sums| sums.fields(step));
+        let fields = fields.map(|((field, weights), per_pa)| (field, weights, *per_pa));
+        fields.chain(of_cycle.map(|(field, weights)| (field, weights, 0.0)))
     }
 }
 
 impl Hereditary for Memory {
-    type Step = StepWeights;
+    type Weights = Vec<Recursion>;
 
     fn weights(&self, step_s: f64, rule: TimeRule) -> StepWeights {
         StepWeights::new(&self.compliance, step_s, rule)
     }
 
-    fn stages(&self, step_s: f64, rule: TimeRule) -> Vec<Stage<StepWeights>> {
+    fn stages(&self, step_s: f64, rule: TimeRule) -> Vec<Stage> {
         match self.rings && rule == TimeRule::Linear && step_s > 0.0 {
             true => StepWeights::damped_stages(&self.compliance, step_s).into(),
             false => vec![Stage::whole(self.weights(step_s, rule))],
         }
     }
 
-    fn compliance_per_pa(step: &StepWeights) -> f64 {
-        step.compliance_per_pa
-    }
-
-    fn step_s(step: &StepWeights) -> f64 {
-        step.step_s
-    }
-
     /// Ages the memory by everything that is known before the new pressure is.
-    fn predict(&mut self, weights: &StepWeights, old_pressure: &[f64], history: &mut [f64]) {
-        let eta = self.compliance.viscosity_pa_s();
+    fn predict(&mut self, step: &StepWeights, old_pressure: &[f64], history: &mut [f64]) {
         for block in blocks(self.nodes) {
-            let (old_pressure, history) =
-                (&old_pressure[block.clone()], &mut history[block.clone()]);
+            let old_pressure = &old_pressure[block.clone()];
+            let history = &mut history[block.clone()];
             history.fill(0.0);
-            let chunks = self.branches.chunks_exact_mut(self.nodes);
-            let branches = self.compliance.branches().iter().zip(&weights.branches);
-            for (memory, (branch, w)) in chunks.zip(branches) {
-                let weights = (w.decay, w.old, branch.compliance_per_pa);
-                fade(&mut memory[block.clone()], old_pressure, weights, history);
-            }
-            if let Some(cycle) = &mut self.cycle {
-                let weights = (&weights.branches[..], weights.flow_old_s);
-                cycle.predict(&block, weights, old_pressure);
-            }
-            if let Some(eta) = eta {
-                let nodes = self.flow[block].iter_mut().zip(old_pressure);
-                for ((m, &p), h) in nodes.zip(history.iter_mut()) {
-                    *m += weights.flow_old_s * p;
-                    *h += *m / eta;
-                }
+            for (field, weights, per_pa) in self.fields(step) {
+                let weights = (weights.decay, weights.old, per_pa);
+                fade(&mut field[block.clone()], old_pressure, weights, history);
             }
         }
     }
 
-    fn commit(&mut self, weights: &StepWeights, new_pressure: &[f64]) {
+    fn commit(&mut self, step: &StepWeights, new_pressure: &[f64]) {
         for block in blocks(self.nodes) {
             let new_pressure = &new_pressure[block.clone()];
-            let chunks = self.branches.chunks_exact_mut(self.nodes);
-            for (memory, w) in chunks.zip(&weights.branches) {
-                if w.new != 0.0 {
-                    sums::add_scaled(&mut memory[block.clone()], w.new, new_pressure);
-                }
-            }
-            if let Some(cycle) = &mut self.cycle {
-                let weights = (&weights.branches[..], weights.flow_new_s);
-                cycle.commit(&block, weights, new_pressure);
-            }
-            if weights.flow_new_s != 0.0 && !self.flow.is_empty() {
-                for (m, &p) in self.flow[block].iter_mut().zip(new_pressure) {
-                    *m += weights.flow_new_s * p;
+            for (field, weights, _) in self.fields(step) {
+                if weights.new != 0.0 {
+                    sums::add_scaled(&mut field[block.clone()], weights.new, new_pressure);
                 }
             }
         }
@@ -392,21 +143,18 @@ impl Hereditary for Memory {
     /// Memory variables, then what has flowed.
     fn state(&self) -> PastState {
         PastState {
-            nodal: vec![self.branches.clone(), self.flow.clone()],
+            nodal: vec![self.fields.clone()],
             steps: Vec::new(),
         }
     }
 
     fn restore(&mut self, state: &PastState) -> bool {
-        let [branches, flow] = &state.nodal[..] else {
+        let [fields] = &state.nodal[..] else {
             return false;
         };
-        let fits = state.steps.is_empty()
-            && branches.len() == self.branches.len()
-            && flow.len() == self.flow.len();
+        let fits = state.steps.is_empty() && fields.len() == self.fields.len();
         if fits {
-            self.flow.copy_from_slice(flow);
-            self.recall(branches);
+            self.fields.copy_from_slice(fields);
         }
         fits
     }
@@ -436,6 +184,7 @@ fn blocks(nodes: usize) -> impl Iterator<Item = Range<usize>> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::rule::linear_weight;
     use super::*;
     use crate::material::{Creep, CreepBranch};
 
@@ -458,7 +207,7 @@ mod tests {
             time += step;
             p = pressure(time);
             memory.commit(&weights, &[p]);
-            q = weights.compliance_per_pa() * p + history[0];
+            q = weights.compliance_per_pa * p + history[0];
         }
         q
     }
@@ -491,7 +240,7 @@ mod tests {
     fn a_jump_is_a_step_of_length_zero_and_meets_the_instantaneous_compliance_alone() {
         for rule in [TimeRule::Linear, TimeRule::Constant] {
             let weights = StepWeights::new(&two_branches(), 0.0, rule);
-            assert_eq!(weights.compliance_per_pa(), 1.0);
+            assert_eq!(weights.compliance_per_pa, 1.0);
             assert_eq!(march(rule, &[0.0], |_| 3.0), 3.0);
         }
     }
@@ -553,7 +302,7 @@ mod tests {
             for Stage { end, weights, .. } in stages {
                 let mut history = [0.0];
                 memory.predict(&weights, &[force], &mut history);
-                force = (shortening(time + end * step) - history[0]) / weights.compliance_per_pa();
+                force = (shortening(time + end * step) - history[0]) / weights.compliance_per_pa;
                 memory.commit(&weights, &[force]);
             }
             time += step;
@@ -620,7 +369,7 @@ mod tests {
                     memory.predict(&weights, &[last], &mut history);
                     last = pressure(time + pressure_at * step);
                     memory.commit(&weights, &[last]);
-                    q = weights.compliance_per_pa() * last + history[0];
+                    q = weights.compliance_per_pa * last + history[0];
                 }
                 time += step;
             }
@@ -659,7 +408,7 @@ mod tests {
                             memory.predict(&stage.weights, &[force], &mut history);
                             let time = 8.0 * (step as f64 + stage.end) / n as f64;
                             force =
-                                (shortening(time) - history[0]) / stage.weights.compliance_per_pa();
+                                (shortening(time) - history[0]) / stage.weights.compliance_per_pa;
                             memory.commit(&stage.weights, &[force]);
                         }
                         found.push(force);

@@ -41,13 +41,15 @@ mod extrapolation;
 mod hereditary;
 mod march;
 mod memory;
+mod rule;
 mod work;
 
 pub use cycle_sums::CycleSums;
 pub use direct::{ComplianceFunction, DirectMemory};
 pub use dissipation::Dissipation;
 pub use extrapolation::Extrapolation;
-pub use hereditary::{DirectStep, Hereditary, PastState, Stage, TimeRule};
+pub use hereditary::{Hereditary, PastState};
 pub use march::{March, Observer, StepState};
-pub use memory::{Memory, StepWeights, order_of_steps};
+pub use memory::Memory;
+pub use rule::{DirectWeights, Recursion, Stage, Step, StepWeights, TimeRule, order_of_steps};
 pub use work::Work;

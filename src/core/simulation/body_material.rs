@@ -1,7 +1,6 @@
 //! What the half-space of a single history is made of, and with it how its past is kept: a series, by a recursion, or samples,
 //! by the direct sum over all that came before.
 
-use crate::history::ComplianceFunction;
 use crate::material::interpolant::Interpolant;
 use crate::material::sampled::Sampled;
 use crate::material::{Creep, Material, MaterialError};
@@ -121,9 +120,7 @@ impl BodyMaterial {
                 let relaxation = relaxation.flat_map(|r| r.branches().iter().map(|b| b.time_s));
                 retardation.chain(relaxation).min_by(f64::total_cmp)
             }
-            Self::Samples(sampled) => {
-                ComplianceFunction::shortest_time_s(sampled.contact_compliance())
-            }
+            Self::Samples(sampled) => sampled.contact_compliance().shortest_time_s(),
         }
     }
 

@@ -13,7 +13,7 @@ use crate::contact::{ContactError, Prescribed, Solution};
 use crate::drive::{Control, Moment, Schedule};
 use crate::engine::growing::{self, Layout};
 use crate::engine::{self, EngineBuilder, EngineError, MAX_GROWTHS};
-use crate::history::{DirectMemory, Hereditary, March, StepState};
+use crate::history::{DirectMemory, Hereditary, March, Step, StepState};
 use crate::simulation::body_material::Compliance;
 use crate::simulation::checkpoint::{HistoryCheckpoint, HistoryState};
 use crate::simulation::{HistoryRow, Level, Progress, Simulation, SurfaceRecord};
@@ -240,7 +240,7 @@ impl Following<'_> {
     fn end_stage<M: Hereditary>(
         &self,
         march: &mut March<'_, M>,
-        weights: &M::Step,
+        weights: &Step<M::Weights>,
         prescribed: Prescribed,
         at: (usize, &[f64]),
         trajectory: &Trajectory,

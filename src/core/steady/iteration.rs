@@ -5,7 +5,7 @@ use super::correction::{ContactHistory, Correction};
 use super::remaining::Remaining;
 use crate::contact::{ContactError, Prescribed, Solution};
 use crate::cycle;
-use crate::history::{March, Stage, StepWeights};
+use crate::history::{March, Stage};
 
 /// One cycle of the drive.
 pub struct Cycle<'a> {
@@ -157,7 +157,7 @@ impl Search {
 
 /// One cycle and what the search wants to know of it.
 pub(super) struct Run {
-    stages: Vec<Stage<StepWeights>>,
+    stages: Vec<Stage>,
     pub(super) contact: ContactHistory,
     /// Largest size of the nodal pressures.
     pub(super) scale: f64,

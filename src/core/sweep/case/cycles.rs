@@ -3,7 +3,7 @@
 use crate::cycle;
 use crate::drive::Control;
 use crate::engine::missed_contact;
-use crate::history::{March, Stage, StepWeights};
+use crate::history::{March, Stage};
 use crate::steady::Remaining;
 use crate::sweep::case::recording::Recording;
 use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised};
@@ -13,7 +13,7 @@ use crate::sweep::record::CaseResult;
 /// Cycles of one case in one number of steps.
 pub(super) struct Cycles<'a> {
     contact: &'a Contact<'a>,
-    stages: Vec<Stage<StepWeights>>,
+    stages: Vec<Stage>,
     steps: usize,
     /// Memory variables at the start of the cycle, and what it left to do.
     start: Vec<f64>,
