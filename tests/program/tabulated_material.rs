@@ -16,7 +16,6 @@ use contact_dma::input::diagnostic::Styling;
 use contact_dma::input::document::Document;
 use contact_dma::input::sweep_file;
 use contact_dma::material::fit::fit;
-use contact_dma::material::interpolant::Interpolant;
 use contact_dma::material::tabulated::Tabulated;
 use contact_dma::material::{
     Material, MaterialFunction, ModulusKind, Relaxation, RelaxationBranch, library,
