@@ -68,6 +68,7 @@ pub mod terminal;
 #[cfg(feature = "report")]
 pub mod terminal_simulation;
 pub mod vti;
+pub mod warnings;
 pub mod words;
 pub mod work_line;
 

@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use super::ReportError;
+use crate::report::warnings::{self, OverCases};
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::Status;
-use crate::sweep::record::warning::{self, OverCases};
 use crate::sweep::search::peak::{Peak, RELATIVE_ACCURACY};
 use crate::sweep::search::run::Outcome;
 
@@ -73,7 +73,7 @@ pub(super) fn of<'a>(
                 names: &varied.names,
             })
             .collect(),
-        warnings: warning::over_cases(&outcome.records, plan.figures.frequency_unit),
+        warnings: warnings::over_cases(&outcome.records, plan.figures.frequency_unit),
         interrupted: outcome.interrupted,
         engine: plan.solver.engine.name(),
         program: env!("CARGO_PKG_NAME"),

@@ -10,9 +10,9 @@ use super::rigid_indenter;
 use super::words::{without_result, wrapped_line};
 use crate::history::Work;
 use crate::quantity::{Dimension, FrequencyUnit, format_human};
+use crate::report::warnings;
 use crate::sweep::plan::{Axes, Condition, SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
-use crate::sweep::record::warning;
 use crate::sweep::search::run::Outcome;
 
 /// One line per case: frequency, loss with its error, phase, cycles, status; an absent value is a dash. A sweep of two axes
@@ -174,7 +174,7 @@ pub fn warnings_of_sweep(plan: &SweepPlan, outcome: &Outcome) -> String {
     let unit = plan.figures.frequency_unit;
     let note = rigid_indenter::note(plan, outcome);
     let note = note.map(|note| wrapped_line(&format!("note: {note}")));
-    warned(warning::over_cases(&outcome.records, unit)) + &note.unwrap_or_default()
+    warned(warnings::over_cases(&outcome.records, unit)) + &note.unwrap_or_default()
 }
 
 /// Warnings, one after another.

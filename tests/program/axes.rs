@@ -10,10 +10,11 @@ use contact_dma::input::diagnostic::Styling;
 use contact_dma::input::document::Document;
 use contact_dma::input::sweep_file;
 use contact_dma::quantity::FrequencyUnit;
+use contact_dma::report::warnings;
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::resolved::resolved_text;
 use contact_dma::sweep::plan::{SweepPlan, Varied};
-use contact_dma::sweep::record::warning::{self, Warning};
+use contact_dma::sweep::record::warning::Warning;
 use contact_dma::sweep::record::{CaseRecord, CaseResult};
 use tempfile::TempDir;
 
@@ -196,7 +197,7 @@ fn the_cases_outside_what_was_measured_at_their_own_temperature_are_warned_of() 
     let expected = ["", "", "below-measured energy-imbalance", ""];
     assert_eq!(codes.collect::<Vec<_>>(), expected);
     let message = |records: &[CaseRecord]| {
-        let warnings = warning::over_cases(records, FrequencyUnit::RadPerS);
+        let warnings = warnings::over_cases(records, FrequencyUnit::RadPerS);
         warnings[0].message.clone()
     };
     let alone = "the material was measured up to 1.00 s: below 1.00 rad/s it is an extrapolation";

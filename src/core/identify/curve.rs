@@ -6,6 +6,7 @@ use crate::drive::{HarmonicDrive, SegmentedDrive};
 use crate::identify::data::{Datum, Measurements, Number};
 use crate::identify::model::Model;
 use crate::identify::{Driven, Identified, IdentifyError, IdentifyPlan, history};
+use crate::numerics::grid::logarithmic;
 
 /// A number of the computed cycles over the angular frequency (rad/s), or of the computed history over time (s).
 #[derive(Debug, Clone, PartialEq)]
@@ -36,9 +37,7 @@ pub fn curves(
         return Ok(Vec::new());
     };
     let (low, high) = found.window_rad_per_s;
-    let count = (PER_DECADE * (high / low).log10()).ceil().max(1.0) as usize;
-    let omega = |k: usize| low * (high / low).powf(k as f64 / count as f64);
-    let omegas: Vec<f64> = (0..=count).map(omega).collect();
+    let omegas = logarithmic(low, high, PER_DECADE, usize::MAX);
     let measured = plan.measurements.numbers();
     let data = (1..).zip(&omegas).flat_map(|(row, &place)| {
         measured.iter().map(move |&number| Datum {

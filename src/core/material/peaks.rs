@@ -9,6 +9,7 @@ use num_complex::Complex;
 use super::creep::Creep;
 use super::harmonic::reciprocal;
 use super::relaxation::Relaxation;
+use crate::numerics::roots::{ALL_DIGITS, bisect};
 
 /// A local maximum over frequency.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -97,7 +98,8 @@ fn maxima(creep: &Creep, range: (f64, f64), measure: Measure) -> Vec<LossPeak> {
     for index in 1..=intervals as u32 {
         let now = rising(at(index));
         if before && !now {
-            let angular_frequency_rad_per_s = last_rising(at(index - 1), at(index), rising).exp();
+            let (last_rising, _) = bisect(at(index - 1), at(index), ALL_DIGITS, rising);
+            let angular_frequency_rad_per_s = last_rising.exp();
             let (value, _) = at_omega(angular_frequency_rad_per_s);
             peaks.push(LossPeak {
                 angular_frequency_rad_per_s,
@@ -107,19 +109,6 @@ fn maxima(creep: &Creep, range: (f64, f64), measure: Measure) -> Vec<LossPeak> {
         before = now;
     }
     peaks
-}
-
-/// Bisection between a rising `low` and a falling `high`, in `ln omega`, to 1e-13.
-fn last_rising(mut low: f64, mut high: f64, rising: impl Fn(f64) -> bool) -> f64 {
-    while high - low > 1e-13 * (1.0 + low.abs()) {
-        let middle = low + 0.5 * (high - low);
-        if rising(middle) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    low
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@
 use std::f64::consts::PI;
 
 use crate::material::Creep;
+use crate::numerics::roots::{ALL_DIGITS, bisect};
 
 /// Contact radius (m) a time after a load was put on and held: a^3 = (3/4) R W C(t).
 pub fn step_load_contact_radius_m(
@@ -30,18 +31,8 @@ pub fn maxwell_half_sine_cubed_radius(s: f64) -> f64 {
     }
     // exp(x) sin x rises up to the turning point: bisection.
     let target = s.exp() * s.sin();
-    let (mut low, mut high) = (0.0, turning);
-    while high - low > 1e-15 {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            break;
-        }
-        if middle.exp() * middle.sin() < target {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
+    let is_below = |x: f64| x.exp() * x.sin() < target;
+    let (low, high) = bisect(0.0, turning, ALL_DIGITS, is_below);
     rising(0.5 * (low + high))
 }
 

@@ -4,8 +4,8 @@ use maud::{Markup, html};
 
 use super::{Pictures, answer, cases_table, how, moduli, question, scroll, section, still};
 use crate::report::rigid_indenter;
+use crate::report::warnings;
 use crate::sweep::plan::{Block, SweepPlan, Varied};
-use crate::sweep::record::warning;
 use crate::sweep::search::run::Outcome;
 
 const NOTHING: &str = "No case has a result: there is nothing to draw.";
@@ -54,7 +54,7 @@ fn curve(plan: &SweepPlan, outcome: &Outcome, pictures: &Pictures) -> Markup {
             h2 id="answer" { "Energy loss per cycle" }
             (answer::peaks(plan, outcome))
             (answer::problems(plan, outcome))
-            (answer::warned(warning::over_cases(&outcome.records, plan.figures.frequency_unit)))
+            (answer::warned(warnings::over_cases(&outcome.records, plan.figures.frequency_unit)))
             @if let Some(note) = rigid_indenter::note(plan, outcome) {
                 p class="hint" { "Note: " (note) "." }
             }

@@ -1,4 +1,4 @@
-//! What is said of a case, of a sweep or of a history that lies outside the model, or has no error bars: the kinds, and their words.
+//! What is said of a case or of a history that lies outside the model, or has no error bars: the kinds, and their words.
 //! The limits themselves are those of the guide on validity.
 
 use std::f64::consts::PI;
@@ -11,8 +11,8 @@ use crate::material::Material;
 use crate::material::dynamic::SAME_TEMPERATURE_K;
 use crate::quantity::{Dimension, FrequencyUnit, celsius, format_prose};
 use crate::sweep::plan::layer::LayerPlan;
+use crate::sweep::record::CaseResult;
 use crate::sweep::record::error_bars::Quantity;
-use crate::sweep::record::{CaseRecord, CaseResult};
 
 /// Slope of an indenter up to which slopes are small: a/R of a sphere, 11 degrees of a cone.
 pub const LARGEST_SLOPE: f64 = 0.2;
@@ -196,8 +196,23 @@ impl Warning {
         }
     }
 
+    /// The end of the measured times (s) that it is of.
+    pub fn measured_s(&self) -> Option<f64> {
+        match *self {
+            Self::BelowMeasured {
+                last_measured_s: end_s,
+                ..
+            }
+            | Self::AboveMeasured {
+                first_measured_s: end_s,
+                ..
+            } => Some(end_s),
+            _ => None,
+        }
+    }
+
     /// Among warnings of one kind, the one that says it for all of them has most of this.
-    fn extent(&self) -> f64 {
+    pub fn extent(&self) -> f64 {
         match *self {
             // How far outside, since each temperature has a window of its own.
             Self::BelowMeasured {
@@ -238,7 +253,7 @@ impl fmt::Display for Warning {
 
 impl Warning {
     /// One line, with frequencies in a unit.
-    fn message(&self, unit: FrequencyUnit) -> String {
+    pub fn message(&self, unit: FrequencyUnit) -> String {
         let time = |time_s| format_prose(time_s, Dimension::Time, 3);
         let frequency = |time_s: f64| format_prose(unit.of(time_s.recip()), unit.dimension(), 3);
         match *self {
@@ -351,111 +366,6 @@ impl Warning {
 fn two_digits(value: f64) -> String {
     let decimals = (1.0 - value.log10().floor()).clamp(0.0, 9.0) as usize;
     format!("{value:.decimals$}")
-}
-
-/// A kind of warning over the cases of a sweep.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct OverCases {
-    pub code: &'static str,
-    /// What is to be said, of the case it is truest of.
-    pub message: String,
-    /// Cases it is to be said of, and the range of their frequencies.
-    pub cases: usize,
-    pub lowest_angular_frequency_rad_per_s: f64,
-    pub highest_angular_frequency_rad_per_s: f64,
-    #[serde(skip)]
-    of: usize,
-    #[serde(skip)]
-    unit: FrequencyUnit,
-    /// Whether the materials of the cases were measured at different times.
-    #[serde(skip)]
-    has_other_limits: bool,
-}
-
-/// The end of the measured times (s) that a warning is of.
-fn measured_s(warning: &Warning) -> Option<f64> {
-    match *warning {
-        Warning::BelowMeasured {
-            last_measured_s, ..
-        } => Some(last_measured_s),
-        Warning::AboveMeasured {
-            first_measured_s, ..
-        } => Some(first_measured_s),
-        _ => None,
-    }
-}
-
-/// What is to be said of these cases, with frequencies in this unit: one entry per kind, in the order in which kinds first occur.
-pub fn over_cases(records: &[CaseRecord], unit: FrequencyUnit) -> Vec<OverCases> {
-    let mut kinds: Vec<(Warning, OverCases)> = Vec::new();
-    for record in records {
-        let omega = record.angular_frequency_rad_per_s;
-        for warning in &record.warnings {
-            let known = (kinds.iter_mut()).find(|(_, over)| over.code == warning.code());
-            match known {
-                Some((worst, over)) => {
-                    over.has_other_limits |= measured_s(warning) != measured_s(worst);
-                    if warning.extent() > worst.extent() {
-                        *worst = *warning;
-                    }
-                    over.cases += 1;
-                    let (low, high) = (
-                        &mut over.lowest_angular_frequency_rad_per_s,
-                        &mut over.highest_angular_frequency_rad_per_s,
-                    );
-                    (*low, *high) = (low.min(omega), high.max(omega));
-                }
-                None => kinds.push((
-                    *warning,
-                    OverCases {
-                        code: warning.code(),
-                        message: String::new(),
-                        cases: 1,
-                        lowest_angular_frequency_rad_per_s: omega,
-                        highest_angular_frequency_rad_per_s: omega,
-                        of: records.len(),
-                        unit,
-                        has_other_limits: false,
-                    },
-                )),
-            }
-        }
-    }
-    let said = |(worst, over): (Warning, OverCases)| {
-        let others = match over.has_other_limits {
-            true => " in the case that is furthest outside",
-            false => "",
-        };
-        OverCases {
-            message: worst.message(unit) + others,
-            ..over
-        }
-    };
-    kinds.into_iter().map(said).collect()
-}
-
-/// One line: the message, and of which cases.
-impl fmt::Display for OverCases {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (low, high) = (
-            self.lowest_angular_frequency_rad_per_s,
-            self.highest_angular_frequency_rad_per_s,
-        );
-        let symbol = self.unit.symbol();
-        let value = |omega| format_prose(self.unit.of(omega), self.unit.dimension(), 4);
-        f.write_str(&self.message)?;
-        let cases = match (self.cases == self.of, low == high) {
-            (true, true) => return Ok(()),
-            (true, false) => return f.write_str(" (all cases)"),
-            (false, true) => value(low),
-            (false, false) => format!("{} to {}", value(low), value(high)),
-        };
-        write!(
-            f,
-            " ({} of {} cases, {symbol} = {cases})",
-            self.cases, self.of
-        )
-    }
 }
 
 #[cfg(test)]
