@@ -354,12 +354,9 @@ impl Manifest {
     /// Removes what killed processes of this machine have left half-written; for the one that holds the lock alone.
     pub(super) fn remove_temporaries(&self) {
         let state = self.state();
-        // A file is listed before its temporary one is made.
-        let parents = state
-            .listed
-            .iter()
-            .filter_map(|name| Path::new(name).parent());
-        let folders: BTreeSet<&Path> = parents.chain([Path::new("")]).collect();
+        let parents = (state.listed.iter()).filter_map(|name| Path::new(name).parent());
+        let folders = [""].iter().chain(&files::NUMBERED).map(Path::new);
+        let folders: BTreeSet<&Path> = folders.chain(parents).collect();
         let entries = folders
             .iter()
             .flat_map(|folder| fs::read_dir(self.folder.join(folder)));
