@@ -91,7 +91,7 @@ fn the_loss_of_a_punch_on_a_layer_is_inside_its_bar_on_every_grid() {
             base: Base::Bonded,
             yielding: None,
         };
-        let of_material = layer.of_material(material.poisson_ratio().unwrap());
+        let of_material = layer.made_of(material.poisson_ratio().unwrap());
         let exact = LayerContact::new(of_material, RADIUS_M, 80);
         let stiffer = exact.punch_stiffness().unwrap();
         grids(few).par_iter().for_each(|&cells| {

@@ -126,7 +126,7 @@ fn refined(plan: &ScenarioPlan, steps: usize, springs: usize) -> Vec<HistoryRow>
     let mut plan = plan.clone();
     plan.solver.engine = EngineKind::Axisymmetric;
     plan.solver.springs = springs;
-    let simulation = Simulation::of_fineness(plan, Fineness::Split(steps)).unwrap();
+    let simulation = Simulation::with_fineness(plan, Fineness::Split(steps)).unwrap();
     let rows = run(&simulation).rows;
     let in_full = simulation.schedule().in_full.iter();
     let common = rows.into_iter().zip(in_full);

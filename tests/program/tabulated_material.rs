@@ -650,7 +650,7 @@ fn the_uncertainty_of_a_flat_punch_is_that_of_the_loss_compliance() {
         let replicas: Vec<_> = replicas
             .map(|replica| Some(loss_j(replica, omega)))
             .collect();
-        let expected_j = material_error::of(own_j, &replicas).unwrap();
+        let expected_j = material_error::from_replicas(own_j, &replicas).unwrap();
         let error_j = record.energy_loss_material_error_j().unwrap();
         // The error of the coarse steps, which the ratio leaves a small part of.
         assert!(

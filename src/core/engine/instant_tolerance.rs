@@ -28,7 +28,7 @@ const TIGHTEST: f64 = 1e-12;
 pub const SHARE: f64 = 0.1;
 
 /// Tolerance of an instant that leaves [`SHARE`] of `cycle_tolerance` in the loss, relative, at the most.
-pub fn of_a_cycle(
+pub fn for_cycle(
     compliance: &Creep,
     drive: &HarmonicDrive,
     angular_frequency_rad_per_s: f64,
@@ -68,8 +68,7 @@ mod tests {
     fn a_narrow_loop_asks_for_more_and_what_is_in_reach_bounds_it() {
         let material = library::find("pmma").unwrap().material().unwrap();
         let pmma = material.contact_compliance().unwrap();
-        let asked =
-            |amplitude_n, omega, cycle| of_a_cycle(&pmma, &drive(amplitude_n), omega, cycle);
+        let asked = |amplitude_n, omega, cycle| for_cycle(&pmma, &drive(amplitude_n), omega, cycle);
         let wide = asked(5.0, 0.01, 1e-6);
         // In proportion to amplitude and accuracy.
         assert!((asked(0.5, 0.01, 1e-6) / wide - 0.1).abs() < 1e-12);

@@ -56,7 +56,7 @@ const SAMPLES: usize = 200;
 const FEWEST_ROWS: usize = 12;
 
 /// Every whole cycle of every sine segment, as far as the rows go.
-pub(super) fn of(plan: &ScenarioPlan, rows: &[HistoryRow]) -> Vec<HistoryCycle> {
+pub(super) fn in_rows(plan: &ScenarioPlan, rows: &[HistoryRow]) -> Vec<HistoryCycle> {
     let segments = plan.drive.segments().iter().enumerate();
     segments
         .flat_map(|(index, segment)| match segment {
@@ -64,7 +64,7 @@ pub(super) fn of(plan: &ScenarioPlan, rows: &[HistoryRow]) -> Vec<HistoryCycle> 
                 angular_frequency_rad_per_s,
                 cycles,
                 ..
-            } => of_segment(plan, rows, index, (*angular_frequency_rad_per_s, *cycles)),
+            } => in_segment(plan, rows, index, (*angular_frequency_rad_per_s, *cycles)),
             _ => Vec::new(),
         })
         .collect()
@@ -90,7 +90,7 @@ pub(super) fn add_errors(cycles: &mut [HistoryCycle], coarser: &[Vec<HistoryCycl
     }
 }
 
-fn of_segment(
+fn in_segment(
     plan: &ScenarioPlan,
     rows: &[HistoryRow],
     segment: usize,

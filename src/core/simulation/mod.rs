@@ -124,7 +124,7 @@ impl Simulation {
     /// [`SetupError`] where the material cannot make a contact, a requested time lies outside the history, or the engine
     /// cannot treat the indenter or give what is asked for.
     pub fn new(plan: ScenarioPlan) -> Result<Self, SetupError> {
-        Self::of_fineness(plan, Fineness::FULL)
+        Self::with_fineness(plan, Fineness::FULL)
     }
 
     /// The same with fewer or more time steps, to see what they do; nothing but the full history is given errors, profiles and
@@ -132,7 +132,7 @@ impl Simulation {
     ///
     /// # Errors
     /// As [`Simulation::new`].
-    pub fn of_fineness(mut plan: ScenarioPlan, fineness: Fineness) -> Result<Self, SetupError> {
+    pub fn with_fineness(mut plan: ScenarioPlan, fineness: Fineness) -> Result<Self, SetupError> {
         plan.check()?;
         plan.solver = (plan.solver).on_own_cells(plan.contact.indenter.as_ref());
         let compliance = plan.contact.material.compliance()?;
@@ -149,7 +149,7 @@ impl Simulation {
             compliance_per_pa: compliance.largest_per_pa(plan.drive.duration_s()),
         };
         let poisson_ratio = plan.contact.material.poisson_ratio();
-        let layer = LayerPlan::of_body(plan.contact.layer, poisson_ratio)?;
+        let layer = LayerPlan::for_body(plan.contact.layer, poisson_ratio)?;
         let output = &plan.output;
         let requested_s = [&output.profiles_at_s[..], &output.fields_at_s[..]].concat();
         let level = |fineness, nodes| -> Result<Level, SetupError> {
@@ -320,7 +320,7 @@ impl Simulation {
         ended: SimulationEnd,
     ) -> SimulationOutcome {
         self.take_attraction_off(&mut trajectories);
-        let mut cycles = cycles::of(&self.plan, &trajectories[0].rows);
+        let mut cycles = cycles::in_rows(&self.plan, &trajectories[0].rows);
         let mut errors = Vec::new();
         let mut errors_missing = self.without_errors.clone();
         if let (SimulationEnd::Done, Some(plan)) = (&ended, &self.errors) {
@@ -331,7 +331,7 @@ impl Simulation {
             });
             errors = plan.errors(&followed.collect::<Vec<_>>());
             let coarser = trajectories.iter().skip(1);
-            let coarser = coarser.map(|trajectory| cycles::of(&self.plan, &trajectory.rows));
+            let coarser = coarser.map(|trajectory| cycles::in_rows(&self.plan, &trajectory.rows));
             cycles::add_errors(&mut cycles, &coarser.collect::<Vec<_>>(), plan);
             let failed = trajectories
                 .iter()

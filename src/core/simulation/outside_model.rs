@@ -7,13 +7,13 @@ use crate::material::tabulated::TableWarning;
 use crate::simulation::body_material::BodyMaterial;
 use crate::simulation::scenario::ScenarioPlan;
 use crate::simulation::{HistoryRow, SimulationOutcome};
-use crate::sweep::record::slope::{Patch, ROUNDING, of_slope, slope_of_body};
+use crate::sweep::record::slope::{Patch, ROUNDING, slope_of_body, slope_warnings};
 use crate::sweep::record::warning::Warning;
 
 /// What is to be said of a history, as far as it came.
 pub fn warnings(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Vec<Warning> {
     let window = plan.contact.material.measured_window_s();
-    let mut warnings = of_times(window, &plan.drive);
+    let mut warnings = time_warnings(window, &plan.drive);
     let series = plan.contact.material.series();
     warnings.extend(series.and_then(Warning::of_temperature));
     let widest =
@@ -27,7 +27,7 @@ pub fn warnings(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Vec<Warning
         && let Some(modulus_pa) = creep_modulus_pa(&plan.contact.material, widest.time_s)
     {
         let slope = slope_of_history(plan, outcome, (widest, approach_m));
-        warnings.extend(of_slope(slope, widest.contact_radius_m, modulus_pa));
+        warnings.extend(slope_warnings(slope, widest.contact_radius_m, modulus_pa));
     }
     let radius_m = widest.map_or(0.0, |row| row.contact_radius_m);
     let indenter = plan.contact.indenter.as_ref();
@@ -67,7 +67,7 @@ fn tabor_parameter(plan: &ScenarioPlan) -> Option<Warning> {
 }
 
 /// The times of a drive against those in which the material was measured.
-fn of_times(window_s: Option<(f64, f64)>, drive: &SegmentedDrive) -> Vec<Warning> {
+fn time_warnings(window_s: Option<(f64, f64)>, drive: &SegmentedDrive) -> Vec<Warning> {
     let Some((first_measured_s, last_measured_s)) = window_s else {
         return Vec::new();
     };
@@ -155,7 +155,7 @@ mod tests {
         let step = |to, duration_s| Segment::Step { to, duration_s };
         let codes = |segments: Vec<Segment>| -> Vec<&str> {
             let drive = SegmentedDrive::new(Control::Load, segments).unwrap();
-            let warnings = of_times(Some((1.0, 100.0)), &drive);
+            let warnings = time_warnings(Some((1.0, 100.0)), &drive);
             warnings.iter().map(Warning::code).collect()
         };
         assert!(codes(vec![ramp(1.0, 1.0), ramp(0.5, 99.0)]).is_empty());

@@ -209,7 +209,7 @@ impl Setup {
         cycle_tolerance: f64,
     ) -> f64 {
         let omega = angular_frequency_rad_per_s;
-        let needed = || instant_tolerance::of_a_cycle(compliance, drive, omega, cycle_tolerance);
+        let needed = || instant_tolerance::for_cycle(compliance, drive, omega, cycle_tolerance);
         self.plan.solver.tolerance.unwrap_or_else(needed)
     }
 
@@ -221,7 +221,7 @@ impl Setup {
     ) -> Result<EngineBuilder, EngineError> {
         let largest = LargestContact::of(&condition.drive, relaxed_per_pa);
         let solver = self.plan.solver.with_nodes(nodes);
-        let layer = LayerPlan::of_body(
+        let layer = LayerPlan::for_body(
             condition.contact.layer,
             condition.contact.material.poisson_ratio(),
         )?;

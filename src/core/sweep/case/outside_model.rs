@@ -6,7 +6,7 @@ use crate::sweep::case::lift_off::FEWEST_STEPS;
 use crate::sweep::plan::Condition;
 use crate::sweep::record::CaseResult;
 use crate::sweep::record::error_bars::Quantity;
-use crate::sweep::record::slope::{ROUNDING, of_slope, slope_of_case};
+use crate::sweep::record::slope::{ROUNDING, slope_of_case, slope_warnings};
 use crate::sweep::record::warning::{NoErrorBars, Warning};
 
 /// What is to be said of a case at an angular frequency (rad/s) and in a number of steps, once it is solved.
@@ -18,7 +18,7 @@ pub(crate) fn warnings(
     error_bars_wanted: bool,
 ) -> Vec<Warning> {
     let window = condition.contact.material.origin.measured_window_s;
-    let mut warnings: Vec<Warning> = of_frequency(window, omega).into_iter().collect();
+    let mut warnings: Vec<Warning> = frequency_warning(window, omega).into_iter().collect();
     warnings.extend(Warning::of_temperature(&condition.contact.material));
     let Some(result) = result else {
         return warnings;
@@ -30,7 +30,7 @@ pub(crate) fn warnings(
         .longitudinal_complex_modulus(omega)
         .norm();
     let radius_m = result.contact_radius_m.maximum;
-    warnings.extend(of_slope(slope, radius_m, modulus_pa));
+    warnings.extend(slope_warnings(slope, radius_m, modulus_pa));
     warnings.extend((result.tabor_parameter).and_then(Warning::of_tabor_parameter));
     warnings.extend(Warning::of_depth(
         condition.contact.layer,
@@ -67,7 +67,7 @@ pub(crate) fn warnings(
 }
 
 /// A frequency against the times (s) in which the material was measured.
-fn of_frequency(window_s: Option<(f64, f64)>, omega: f64) -> Option<Warning> {
+fn frequency_warning(window_s: Option<(f64, f64)>, omega: f64) -> Option<Warning> {
     let (first_measured_s, last_measured_s) = window_s?;
     if omega * last_measured_s < 1.0 - ROUNDING {
         return Some(Warning::BelowMeasured {
@@ -90,13 +90,13 @@ mod tests {
         let window = Some((0.1, 1000.0));
         // The ends themselves, with the rounding of one over them.
         for omega in [1e-3, 1.0, 10.0, 1.0 / 1000.0, 1.0 / 0.1] {
-            assert_eq!(of_frequency(window, omega), None);
+            assert_eq!(frequency_warning(window, omega), None);
         }
-        let code = |omega| of_frequency(window, omega).map(|warning| warning.code());
+        let code = |omega| frequency_warning(window, omega).map(|warning| warning.code());
         assert_eq!(code(0.99e-3), Some("below-measured"));
         assert_eq!(code(10.1), Some("above-measured"));
         // A table that begins at 0 s tells of every high frequency.
-        assert_eq!(of_frequency(Some((0.0, 1000.0)), 1e12), None);
-        assert_eq!(of_frequency(None, 1e12), None);
+        assert_eq!(frequency_warning(Some((0.0, 1000.0)), 1e12), None);
+        assert_eq!(frequency_warning(None, 1e12), None);
     }
 }

@@ -21,7 +21,7 @@ pub struct LayerPlan {
 
 impl LayerPlan {
     /// With the Poisson ratio of the material it is made of.
-    pub fn of_material(self, poisson_ratio: f64) -> Layer {
+    pub fn made_of(self, poisson_ratio: f64) -> Layer {
         Layer {
             thickness_m: self.thickness_m,
             base: self.base,
@@ -34,7 +34,7 @@ impl LayerPlan {
     ///
     /// # Errors
     /// [`EngineError`] for a body without a constant Poisson ratio.
-    pub(crate) fn of_body(
+    pub(crate) fn for_body(
         plan: Option<Self>,
         poisson_ratio: Option<f64>,
     ) -> Result<Option<Layer>, EngineError> {
@@ -42,7 +42,7 @@ impl LayerPlan {
             return Ok(None);
         };
         let poisson_ratio = poisson_ratio.ok_or(EngineError::LayerOfBulkModulus)?;
-        Ok(Some(plan.of_material(poisson_ratio)))
+        Ok(Some(plan.made_of(poisson_ratio)))
     }
 
     /// The `[layer]` block.

@@ -178,7 +178,7 @@ impl InNodes {
     };
 
     /// On cells of this width (m). Every quantity feels where the edge of the contact lies between two of them, least what a whole
-    /// cycle and the whole contact make; for the loss that is predicted (`InNodes::of_edge`), and the difference between grids,
+    /// cycle and the whole contact make; for the loss that is predicted (`InNodes::edge_error`), and the difference between grids,
     /// most of which is the coarser one's own edge, tells the rest. Both factors of smooth contacts are from random solids on 48
     /// cells (`tests/physics/random_solids.rs`), whose figures are in the guide on validation; an edge that does not move has no
     /// average over its places.
@@ -203,7 +203,7 @@ impl InNodes {
     /// stiffness over 1 + 2 m places. The factor of 3 holds the worst places of the edge, which all small amplitudes on the same
     /// number of cells have in common. At a rim the number of cells is right, and three times what their uneven staircase leaves
     /// in the radius counts.
-    fn of_edge(self, quantity: Quantity, result: &CaseResult) -> f64 {
+    fn edge_error(self, quantity: Quantity, result: &CaseResult) -> f64 {
         let Some((cell_m, edge)) = self.cells else {
             return 0.0;
         };
@@ -340,7 +340,7 @@ impl ErrorBars {
                 steps: SAFETY * error(quantity, steps, quantity.orders_in_steps(order_in_steps))?,
                 nodes: believed.safety_of(quantity)
                     * error(quantity, nodes, quantity.orders(believed.order))?
-                    + believed.of_edge(quantity, result),
+                    + believed.edge_error(quantity, result),
                 steady: (steady_distance + ROUNDING) * quantity.scale(result)?,
                 material: MATERIAL_SAFETY * of_material(quantity),
             })

@@ -9,7 +9,7 @@ const MOST_WITHOUT: usize = 10;
 
 /// The error (95 %) of a value of which the replicas of the material make these values, in the unit of the value, as
 /// [`replicas::error`] has it; `None` where there are too few of them.
-pub fn of(value: f64, replicas: &[Option<f64>]) -> Option<f64> {
+pub fn from_replicas(value: f64, replicas: &[Option<f64>]) -> Option<f64> {
     enough(replicas).and_then(|known| replicas::error(value, &known))
 }
 

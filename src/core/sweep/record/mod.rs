@@ -246,7 +246,7 @@ impl CaseRecord {
     /// has replicas: no part of [`Self::energy_loss_error_j`].
     pub fn energy_loss_material_error_j(&self) -> Option<f64> {
         let result = self.result.as_ref()?;
-        material_error::of(result.analysis.energy_loss_j, &result.replica_losses_j)
+        material_error::from_replicas(result.analysis.energy_loss_j, &result.replica_losses_j)
     }
 
     /// The same as the half width (J) of the band that holds the whole curve of losses at once.

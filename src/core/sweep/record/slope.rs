@@ -31,7 +31,11 @@ const STEEPEST_SHARE: f64 = 0.05;
 pub(crate) const ROUNDING: f64 = 1e-9;
 
 /// A slope within the contact, and the strain that goes with it in a material of this modulus.
-pub(crate) fn of_slope(slope: Option<f64>, contact_radius_m: f64, modulus_pa: f64) -> Vec<Warning> {
+pub(crate) fn slope_warnings(
+    slope: Option<f64>,
+    contact_radius_m: f64,
+    modulus_pa: f64,
+) -> Vec<Warning> {
     // A record holds finite numbers.
     let Some(slope) = slope.filter(|slope| slope.is_finite()) else {
         return Vec::new();
@@ -52,7 +56,7 @@ pub(crate) fn slope_of_case(indenter: &dyn Indenter, result: &CaseResult) -> Opt
     let (radius_m, approach_m) = (result.contact_radius_m.maximum, result.approach_m.maximum);
     match (indenter.axisymmetric(), &result.cycle.surface_loss) {
         (Some(body), _) => slope_of_body(body, radius_m, approach_m),
-        (None, SurfaceLoss::Cells(loss)) => Patch::of_work(indenter, loss).steepest(),
+        (None, SurfaceLoss::Cells(loss)) => Patch::from_work(indenter, loss).steepest(),
         (None, SurfaceLoss::Radial { .. }) => None,
     }
 }
@@ -91,7 +95,7 @@ pub(crate) struct Patch {
 
 impl Patch {
     /// The cells that a cycle was in contact with, which are those it did work on.
-    fn of_work(indenter: &dyn Indenter, loss: &CellLoss) -> Self {
+    fn from_work(indenter: &dyn Indenter, loss: &CellLoss) -> Self {
         let gap_m = |(cell, density): (usize, &f32)| {
             let (column, row) = (cell % loss.cells_x, cell / loss.cells_x);
             let x_m = loss.first_x_m + column as f64 * loss.spacing_x_m;
@@ -229,17 +233,17 @@ mod tests {
         let sphere = Arc::new(Sphere::new(0.01).unwrap());
         let shifted = Shifted::new(sphere, center_m[0], center_m[1]).unwrap();
         let round = work(center_m, [1e-3, 1e-3], 40);
-        let slope = Patch::of_work(&shifted, &round).steepest().unwrap();
+        let slope = Patch::from_work(&shifted, &round).steepest().unwrap();
         // 95 % of a disc lie within 0.975 of its radius; half a cell of 40 is 0.025 of it.
         assert!((slope / 0.1 - 0.975).abs() < 0.025, "{slope}");
         let flat = Ellipsoid::new(0.09, 0.01).unwrap();
         let oval = work([0.0; 2], [3e-3, 1e-3], 40);
-        let slope = Patch::of_work(&flat, &oval).steepest().unwrap();
+        let slope = Patch::from_work(&flat, &oval).steepest().unwrap();
         // From 3 mm/90 mm to 1 mm/10 mm around the edge: near the latter end.
         assert!(slope > 0.085 && slope < 0.1, "{slope}");
         // One cell has no slope.
         assert_eq!(
-            Patch::of_work(&shifted, &work([0.0; 2], [1e-3; 2], 1)).steepest(),
+            Patch::from_work(&shifted, &work([0.0; 2], [1e-3; 2], 1)).steepest(),
             None
         );
     }
@@ -282,7 +286,7 @@ mod tests {
     #[test]
     fn strains_count_in_glassy_materials_and_slopes_in_all() {
         let codes = |slope, modulus_pa| -> Vec<&str> {
-            let warnings = of_slope(Some(slope), 1e-3, modulus_pa);
+            let warnings = slope_warnings(Some(slope), 1e-3, modulus_pa);
             warnings.iter().map(Warning::code).collect()
         };
         assert!(codes(0.05, 3e9).is_empty());

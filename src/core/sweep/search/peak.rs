@@ -139,7 +139,7 @@ pub fn refine<E: From<PeakError>>(bracket: &[Point; 3], losses: &Losses<'_, E>) 
         centre = next;
         if moved < 0.5 * RELATIVE_ACCURACY {
             let omega = next.exp();
-            let (shift, error) = of_errors(&abscissae, &computed, next);
+            let (shift, error) = shift_and_error(&abscissae, &computed, next);
             // Of losses without errors no more is known than what is asked for, however little the last round moved.
             let moved = match error {
                 Some(_) => moved,
@@ -162,7 +162,7 @@ pub fn refine<E: From<PeakError>>(bracket: &[Point; 3], losses: &Losses<'_, E>) 
 
 /// By how much the errors move a vertex found at `at`, and the error of the loss there. Errors of one discretisation vary
 /// slowly over frequency: it is their slope that moves the vertex, up or down.
-fn of_errors(abscissae: &[f64], computed: &[Loss], at: f64) -> (f64, Option<f64>) {
+fn shift_and_error(abscissae: &[f64], computed: &[Loss], at: f64) -> (f64, Option<f64>) {
     let Some(errors) = computed
         .iter()
         .map(|(_, e)| *e)

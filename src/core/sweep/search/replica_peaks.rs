@@ -39,8 +39,9 @@ pub(super) fn add_errors(found: &mut Peak, records: &[CaseRecord]) {
         peaks.iter().map(|peak| peak.as_ref().map(part)).collect()
     };
     let omega = found.angular_frequency_rad_per_s;
-    found.angular_frequency_material_error_rad_per_s = material_error::of(omega, &part(|p| p.0));
-    found.energy_loss_material_error_j = material_error::of(loss_j, &part(|p| p.1));
+    found.angular_frequency_material_error_rad_per_s =
+        material_error::from_replicas(omega, &part(|p| p.0));
+    found.energy_loss_material_error_j = material_error::from_replicas(loss_j, &part(|p| p.1));
 }
 
 /// The maximum (place and value) of a curve that is reached uphill from its point nearest to `near`; `None` where that leads to an end.

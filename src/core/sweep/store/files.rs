@@ -53,7 +53,8 @@ const TABLES: [&str; 10] = [
 ];
 
 /// Folders with files by number: of cases, and of instants asked for.
-pub(super) const NUMBERED: [&str; 6] = ["loops", "pressures", "work", "cycles", "profiles", "fields"];
+pub(super) const NUMBERED: [&str; 6] =
+    ["loops", "pressures", "work", "cycles", "profiles", "fields"];
 
 /// The height map of a result that was saved from arrays: its plan names it.
 pub const HEIGHT_MAP: &str = "height-map.npy";
