@@ -93,7 +93,7 @@ fn what_makes_no_number_changes_nothing() {
         sources.with("src/core/sweep/plan/figures.rs", |text| {
             text.replace("titles: true", "titles: false")
         }),
-        sources.with("src/core/sweep/store/mod.rs", |text| {
+        sources.with("src/core/sweep/store/error.rs", |text| {
             text.replace("cannot", "can not")
         }),
         sources.with("Cargo.lock", with_version_of("clap")),
