@@ -22,92 +22,81 @@ mod units;
 
 use std::fmt;
 
-pub use error::QuantityError;
+pub use error::{QuantityError, QuantityProblem};
 pub use frequency::FrequencyUnit;
 use units::{Exponents, Unit, UnitProblem};
 
-/// What kind of quantity a number is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Dimension {
-    /// m.
-    Length,
-    /// m^2.
-    Area,
-    /// N.
-    Force,
-    /// Pa; moduli and pressures too.
-    Stress,
-    /// 1/Pa.
-    Compliance,
-    /// Pa s.
-    Viscosity,
-    /// s.
-    Time,
-    /// rad.
-    Angle,
-    /// rad/s.
-    AngularFrequency,
-    /// Hz.
-    Frequency,
-    /// J.
-    Energy,
-    /// K.
-    Temperature,
-    /// kg.
-    Mass,
-    /// N/m.
-    Stiffness,
-    /// J/m^2.
-    EnergyPerArea,
-    /// m/N.
-    FrameCompliance,
-    /// N s/m.
-    Damping,
-    /// m/s.
-    Speed,
+/// The dimensions, each with its name with article, its SI unit, an example, and the powers of ten whose prefixes look natural before
+/// the SI unit.
+macro_rules! dimensions {
+    ($($(#[$doc:meta])* $name:ident: $words:literal, $si:literal, $example:literal, $prefixes:expr;)*) => {
+        /// What kind of quantity a number is.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        pub enum Dimension {
+            $($(#[$doc])* $name,)*
+        }
+
+        impl Dimension {
+            /// Every dimension.
+            pub const ALL: [Self; [$($words),*].len()] = [$(Self::$name),*];
+
+            fn profile(self) -> (&'static str, &'static str, &'static str, (i32, i32)) {
+                match self {
+                    $(Self::$name => ($words, $si, $example, $prefixes),)*
+                }
+            }
+        }
+    };
 }
 
-/// What there is to know about a dimension.
-struct Profile {
-    /// Name with its article, for messages.
-    name: &'static str,
-    si_unit: &'static str,
-    example: &'static str,
-    /// Powers of ten whose prefixes look natural before the SI unit.
-    prefixes: (i32, i32),
+dimensions! {
+    /// m.
+    Length: "a length", "m", "10 mm", (-15, 3);
+    /// m^2.
+    Area: "an area", "m^2", "2 mm^2", (0, 0);
+    /// N.
+    Force: "a force", "N", "10 N", (-15, 12);
+    /// Pa; moduli and pressures too.
+    Stress: "a stress or modulus", "Pa", "1973 MPa", (-15, 12);
+    /// 1/Pa.
+    Compliance: "a compliance", "1/Pa", "1e-4 1/MPa", (0, 0);
+    /// Pa s.
+    Viscosity: "a viscosity", "Pa s", "2 GPa s", (-15, 12);
+    /// s. Long times stay in seconds: nobody reads kiloseconds.
+    Time: "a time", "s", "8.93 s", (-15, 0);
+    /// rad.
+    Angle: "an angle", "rad", "90 deg", (0, 0);
+    /// rad/s. Without prefixes, as those of a sweep are read beside one another.
+    AngularFrequency: "an angular frequency", "rad/s", "0.5 rad/s", (0, 0);
+    /// Hz. As angular frequencies.
+    Frequency: "a frequency", "Hz", "10 Hz", (0, 12);
+    /// J.
+    Energy: "an energy", "J", "3.5 µJ", (-15, 12);
+    /// K.
+    Temperature: "a temperature", "K", "25 °C", (0, 0);
+    /// kg.
+    Mass: "a mass", "kg", "200 mg", (0, 0);
+    /// N/m.
+    Stiffness: "a stiffness", "N/m", "150 N/m", (0, 0);
+    /// J/m^2.
+    EnergyPerArea: "an energy per area", "J/m^2", "0.05 J/m^2", (0, 0);
+    /// m/N.
+    FrameCompliance: "a frame compliance", "m/N", "0.5 um/N", (0, 0);
+    /// N s/m.
+    Damping: "a damping", "N s/m", "0.02 N s/m", (0, 0);
+    /// m/s.
+    Speed: "a speed", "m/s", "0.05 nm/s", (0, 0);
 }
 
 impl Dimension {
-    /// Every dimension.
-    pub const ALL: [Dimension; 18] = [
-        Dimension::Length,
-        Dimension::Area,
-        Dimension::Force,
-        Dimension::Stress,
-        Dimension::Compliance,
-        Dimension::Viscosity,
-        Dimension::Time,
-        Dimension::Angle,
-        Dimension::AngularFrequency,
-        Dimension::Frequency,
-        Dimension::Energy,
-        Dimension::Temperature,
-        Dimension::Mass,
-        Dimension::Stiffness,
-        Dimension::EnergyPerArea,
-        Dimension::FrameCompliance,
-        Dimension::Damping,
-        Dimension::Speed,
-    ];
-
     /// The SI unit in which [`parse`] answers, as [`format_si`] writes it.
     pub fn si_unit(self) -> &'static str {
-        self.profile().si_unit
+        self.profile().1
     }
 
     /// A quantity of this dimension as one would write it, for example `10 mm`.
     pub fn example(self) -> &'static str {
-        self.profile().example
+        self.profile().2
     }
 
     /// The unit of the example.
@@ -120,43 +109,12 @@ impl Dimension {
         // Every SI unit can be read.
         Unit::read(self.si_unit()).map_or(Exponents::NONE, |unit| unit.exponents)
     }
-
-    fn profile(self) -> Profile {
-        let (name, si_unit, example, prefixes) = match self {
-            Self::Length => ("a length", "m", "10 mm", (-15, 3)),
-            Self::Area => ("an area", "m^2", "2 mm^2", (0, 0)),
-            Self::Force => ("a force", "N", "10 N", (-15, 12)),
-            Self::Stress => ("a stress or modulus", "Pa", "1973 MPa", (-15, 12)),
-            Self::Compliance => ("a compliance", "1/Pa", "1e-4 1/MPa", (0, 0)),
-            Self::Viscosity => ("a viscosity", "Pa s", "2 GPa s", (-15, 12)),
-            // Long times stay in seconds: nobody reads kiloseconds.
-            Self::Time => ("a time", "s", "8.93 s", (-15, 0)),
-            Self::Angle => ("an angle", "rad", "90 deg", (0, 0)),
-            Self::AngularFrequency => ("an angular frequency", "rad/s", "0.5 rad/s", (0, 0)),
-            // As angular frequencies: those of a sweep are read beside one another.
-            Self::Frequency => ("a frequency", "Hz", "10 Hz", (0, 12)),
-            Self::Energy => ("an energy", "J", "3.5 µJ", (-15, 12)),
-            Self::Temperature => ("a temperature", "K", "25 °C", (0, 0)),
-            Self::Mass => ("a mass", "kg", "200 mg", (0, 0)),
-            Self::Stiffness => ("a stiffness", "N/m", "150 N/m", (0, 0)),
-            Self::EnergyPerArea => ("an energy per area", "J/m^2", "0.05 J/m^2", (0, 0)),
-            Self::FrameCompliance => ("a frame compliance", "m/N", "0.5 um/N", (0, 0)),
-            Self::Damping => ("a damping", "N s/m", "0.02 N s/m", (0, 0)),
-            Self::Speed => ("a speed", "m/s", "0.05 nm/s", (0, 0)),
-        };
-        Profile {
-            name,
-            si_unit,
-            example,
-            prefixes,
-        }
-    }
 }
 
 impl fmt::Display for Dimension {
     /// The name with its article: `a length`.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(self.profile().name)
+        formatter.write_str(self.profile().0)
     }
 }
 
@@ -170,50 +128,39 @@ impl fmt::Display for Dimension {
 /// # Errors
 /// See [`QuantityError`]: each says what was found and what to write instead.
 pub fn parse(text: &str, expected: Dimension) -> Result<f64, QuantityError> {
-    let trimmed = text.trim();
-    let quoted = || trimmed.to_owned();
-    let Some((number, rest)) = Number::read(trimmed) else {
-        return Err(no_number(trimmed, expected));
-    };
+    let text = text.trim();
+    read(text, expected).map_err(|problem| QuantityError {
+        text: text.to_owned(),
+        expected,
+        problem,
+    })
+}
+
+fn read(text: &str, expected: Dimension) -> Result<f64, QuantityProblem> {
+    let (number, rest) = Number::read(text).ok_or_else(|| no_number(text))?;
     if rest.trim_start().starts_with(',') {
-        return Err(QuantityError::Comma { text: quoted() });
+        return Err(QuantityProblem::Comma);
     }
     if rest.trim().is_empty() {
-        return Err(QuantityError::MissingUnit {
-            number: quoted(),
-            common_unit: expected.common_unit(),
-            expected,
-        });
+        return Err(QuantityProblem::MissingUnit);
     }
     let unit = Unit::read(rest).map_err(|problem| match problem {
-        UnitProblem::Ambiguous => QuantityError::AmbiguousUnit { text: quoted() },
-        UnitProblem::Unknown(unit) => QuantityError::UnknownUnit {
-            text: quoted(),
+        UnitProblem::Ambiguous => QuantityProblem::AmbiguousUnit,
+        UnitProblem::Unknown(unit) => QuantityProblem::UnknownUnit {
             suggestions: units::suggestions(&unit, expected.exponents()),
             unit,
-            expected,
         },
     })?;
     if unit.exponents != expected.exponents() {
         let found = describe(unit.exponents);
-        return Err(QuantityError::WrongDimension {
-            text: quoted(),
-            found,
-            expected,
-        });
+        return Err(QuantityProblem::WrongDimension { found });
     }
     let value = number.times(&unit);
     if !value.is_finite() {
-        return Err(QuantityError::TooLarge {
-            text: quoted(),
-            expected,
-        });
+        return Err(QuantityProblem::TooLarge);
     }
     if value == 0.0 && !number.is_zero() && unit.zero_k == 0.0 {
-        return Err(QuantityError::TooSmall {
-            text: quoted(),
-            expected,
-        });
+        return Err(QuantityProblem::TooSmall);
     }
     Ok(value)
 }
@@ -249,24 +196,23 @@ pub fn format_si(value: f64, dimension: Dimension) -> String {
 /// A number to be read by people: rounded to `significant_digits` (1 to 17), with an SI prefix
 /// where that is customary: `3.509 µJ`, `365.4 µm`, `53.63 MPa`, `8.44e-3 rad/s`.
 pub fn format_human(value: f64, dimension: Dimension, significant_digits: usize) -> String {
-    let profile = dimension.profile();
+    let (_, si_unit, _, (lowest, highest)) = dimension.profile();
     if value == 0.0 || !value.is_finite() {
-        return format!("{value} {}", profile.si_unit);
+        return format!("{value} {}", si_unit);
     }
     let digits = significant_digits.clamp(1, 17);
     let scientific = format!("{value:.*e}", digits - 1);
     // Rust writes every finite number as mantissa, e, exponent; the fallback is never needed.
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
-    let (lowest, highest) = profile.prefixes;
     let power = (exponent.div_euclid(3) * 3).clamp(lowest, highest);
     let shift = exponent - power;
     // Fixed notation from 0.01 to below a million, as in print.
     if (-2..6).contains(&shift) {
         let prefix = units::prefix_symbol(power);
-        format!("{} {prefix}{}", shifted(mantissa, shift), profile.si_unit)
+        format!("{} {prefix}{}", shifted(mantissa, shift), si_unit)
     } else {
-        format!("{scientific} {}", profile.si_unit)
+        format!("{scientific} {}", si_unit)
     }
 }
 
@@ -382,16 +328,13 @@ fn read_exponent(text: &str) -> (i64, &str) {
     }
 }
 
-/// The error for a text that begins with no number.
-fn no_number(text: &str, expected: Dimension) -> QuantityError {
-    let word = text
-        .trim_start_matches(['+', '-', '\u{2212}'])
-        .to_lowercase();
-    let text = text.to_owned();
-    if word.starts_with("inf") || word.starts_with("nan") {
-        QuantityError::NotFinite { text, expected }
-    } else {
-        QuantityError::NotANumber { text, expected }
+/// What is wrong with a text that begins with no number.
+fn no_number(text: &str) -> QuantityProblem {
+    let sign = ['+', '-', '\u{2212}'];
+    let word = text.trim_start_matches(sign).to_lowercase();
+    match word.starts_with("inf") || word.starts_with("nan") {
+        true => QuantityProblem::NotFinite,
+        false => QuantityProblem::NotANumber,
     }
 }
 
@@ -547,7 +490,10 @@ mod tests {
     #[test]
     fn an_unknown_unit_gets_the_likeliest_ones() {
         let suggestions = |text: &str, expected| match parse(text, expected) {
-            Err(QuantityError::UnknownUnit { suggestions, .. }) => suggestions,
+            Err(QuantityError {
+                problem: QuantityProblem::UnknownUnit { suggestions, .. },
+                ..
+            }) => suggestions,
             other => panic!("{text}: {other:?}"),
         };
         assert_eq!(suggestions("5 mpa", Dimension::Stress), ["MPa", "mPa"]);

@@ -32,7 +32,7 @@ impl HarmonicDrive {
         phase_rad: f64,
         hold_s: f64,
     ) -> Result<Self, DriveError> {
-        Self::unattracted(control, mean, amplitude, phase_rad, hold_s)?.touching()
+        Self::unattracted(control, mean, amplitude, phase_rad, hold_s)?.attracted_by(0.0)
     }
 
     /// The same, that may never touch without an attraction: see [`Self::attracted_by`].
@@ -68,18 +68,6 @@ impl HarmonicDrive {
         })
     }
 
-    /// The same, where it touches.
-    fn touching(self) -> Result<Self, DriveError> {
-        match self.maximum() + self.pull_off_n > 0.0 {
-            true => Ok(self),
-            false => Err(DriveError::NoTouch {
-                control: self.control,
-                mean: self.mean,
-                amplitude: self.amplitude,
-            }),
-        }
-    }
-
     /// The same control and attraction with these numbers.
     ///
     /// # Errors
@@ -91,22 +79,32 @@ impl HarmonicDrive {
         phase_rad: f64,
         hold_s: f64,
     ) -> Result<Self, DriveError> {
-        let own = Self::unattracted(self.control, mean, amplitude, phase_rad, hold_s)?;
-        match self.pull_off_n {
-            0.0 => own.touching(),
-            pull_off_n => own.attracted_by(pull_off_n),
-        }
+        Self::unattracted(self.control, mean, amplitude, phase_rad, hold_s)?
+            .attracted_by(self.pull_off_n)
     }
 
-    /// The same load on an indenter that is attracted by this much (N), so that it may be a pull; the indenter does not come off.
+    /// The same drive of an indenter that is attracted by this much (N), so that a load may be a pull; the indenter does not come off.
+    /// Without an attraction a load below zero is held at zero.
     ///
     /// # Errors
-    /// [`DriveError`]: a load that falls below the pull-off load.
+    /// [`DriveError`]: an indenter that never touches, a load that falls below the pull-off load.
     pub fn attracted_by(self, pull_off_n: f64) -> Result<Self, DriveError> {
-        let least_n = self.mean - self.amplitude;
-        let drive = Self { pull_off_n, ..self }.touching()?;
-        match least_n >= -pull_off_n {
-            true => Ok(drive),
+        let Self {
+            control,
+            mean,
+            amplitude,
+            ..
+        } = self;
+        if self.maximum() + pull_off_n <= 0.0 {
+            return Err(DriveError::NoTouch {
+                control,
+                mean,
+                amplitude,
+            });
+        }
+        let least_n = mean - amplitude;
+        match pull_off_n == 0.0 || least_n >= -pull_off_n {
+            true => Ok(Self { pull_off_n, ..self }),
             false => Err(DriveError::PullOff {
                 least_n,
                 pull_off_n,

@@ -25,22 +25,6 @@ impl Form {
     pub(super) fn held(value: f64) -> Self {
         Self::Polynomial(vec![value])
     }
-
-    /// Adds a constant to the values.
-    pub(super) fn raise(&mut self, by: f64) {
-        match self {
-            Self::Sine { mean, .. } => *mean += by,
-            Self::Linear { from, to } => {
-                *from += by;
-                *to += by;
-            }
-            Self::Polynomial(coefficients) => {
-                if let Some(constant) = coefficients.first_mut() {
-                    *constant += by;
-                }
-            }
-        }
-    }
 }
 
 /// A smooth piece of a drive history.

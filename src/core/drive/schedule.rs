@@ -33,14 +33,20 @@ pub struct Moment {
 }
 
 impl Moment {
-    /// The piece of the drive that leads to it, and the time (s) since that began at a fraction of the step.
-    pub(super) fn place(&self, fraction: f64) -> (usize, f64) {
-        (self.piece, self.since_s - (1.0 - fraction) * self.step_s)
-    }
-
     /// Whether the drive jumps to this state from another one at the same time, or from before the history.
     pub fn is_jump(&self) -> bool {
         self.step_s == 0.0
+    }
+}
+
+impl SegmentedDrive {
+    /// What is prescribed at a fraction of the step that leads to a moment of this drive, in the unit of its control.
+    pub fn value_within(&self, moment: &Moment, fraction: f64) -> f64 {
+        let since_s = moment.since_s - (1.0 - fraction) * moment.step_s;
+        match self.pieces().get(moment.piece) {
+            Some(piece) if fraction < 1.0 => self.value_in(piece, since_s),
+            _ => moment.value,
+        }
     }
 }
 

@@ -1,7 +1,6 @@
 //! A drive history: segments one after another, each a step, a ramp, a polynomial, a sine or a table.
 
 use super::Control;
-use super::Moment;
 use super::piece::{Form, Piece};
 use crate::quantity::{Dimension, format_human};
 
@@ -121,7 +120,6 @@ pub struct Joint {
 pub struct SegmentedDrive {
     control: Control,
     segments: Vec<Segment>,
-    /// Their values are those of the contact, which carries the attraction too.
     pieces: Vec<Piece>,
     maximum: f64,
     pull_off_n: f64,
@@ -177,11 +175,6 @@ impl SegmentedDrive {
         let maximum = largest.fold(f64::NEG_INFINITY, f64::max);
         if maximum + pull_off_n <= 0.0 {
             return Err(HistoryError::NeverTouches { control });
-        }
-        if pull_off_n > 0.0 {
-            pieces
-                .iter_mut()
-                .for_each(|piece| piece.form.raise(pull_off_n));
         }
         Ok(Self {
             control,
@@ -250,23 +243,14 @@ impl SegmentedDrive {
         &self.pieces
     }
 
-    /// The value this long after a piece began. A load that is zero but for rounding is zero: a contact is out of contact at
-    /// load zero, and a pull of 1e-16 N would be no load at all.
+    /// The value on the contact this long after a piece began. A load that is zero but for rounding is zero: a contact is out of contact
+    /// at load zero, and a pull of 1e-16 N would be no load at all.
     pub(super) fn value_in(&self, piece: &Piece, time_s: f64) -> f64 {
-        let value = piece.value(time_s);
-        if self.control == Control::Load && value <= ZERO_LOAD * piece.scale() {
-            0.0
-        } else {
-            value
-        }
-    }
-
-    /// What is prescribed at a fraction of the step that leads to a moment of this drive, in the unit of its control.
-    pub fn value_within(&self, moment: &Moment, fraction: f64) -> f64 {
-        let (piece, since_s) = moment.place(fraction);
-        match self.pieces.get(piece) {
-            Some(piece) if fraction < 1.0 => self.value_in(piece, since_s),
-            _ => moment.value,
+        let value = piece.value(time_s) + self.pull_off_n;
+        let rounding = ZERO_LOAD * (piece.scale() + self.pull_off_n);
+        match self.control == Control::Load && value <= rounding {
+            true => 0.0,
+            false => value,
         }
     }
 

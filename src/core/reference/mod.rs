@@ -1,7 +1,8 @@
 //! Reference solutions, each with its source, and slow independent solvers. Tests, benches and users compare with them;
 //! nothing that computes results for a user rests on them.
 
-pub mod direct_sum;
+#[cfg(test)]
+mod direct_sum;
 pub mod elastic;
 pub mod elliptic;
 pub mod layer;

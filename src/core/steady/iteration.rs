@@ -60,38 +60,117 @@ pub fn find(
     settings: SteadySettings,
     stop: &dyn Fn() -> bool,
 ) -> Result<Steady, ContactError> {
-    let compliance = march.memory().compliance();
-    let remaining = Remaining::new(compliance, cycle.period_s, march.pressure().len());
-    let loads = march.loads_per_nodal_pressure();
-    let correction = Correction::new(compliance, (cycle.period_s, cycle.steps), &remaining, loads);
+    let map = CycleMap::new(march, cycle, stop);
     let mut search = Search::begin(march, cycle, start)?;
     let mut converged = false;
-    let nodes = march.pressure().len();
     let mut run = Run::new(march, cycle);
     let mut update = vec![0.0; search.start.len()];
-    let weights = correction.weights(nodes);
-    let keep_mean_load = matches!(cycle.mean, Prescribed::LoadN(_));
     while search.cycles < settings.max_cycles {
-        march.recall(&search.start);
-        if !run.cycle(march, cycle, &remaining, stop)? {
+        let Some(reached) = map.cycle(march, &search.start, &mut run, &mut update)? else {
             break;
-        }
+        };
         search.cycles += 1;
-        remaining.change(&search.start, march.memory(), &mut update);
-        let memory = remaining.distance(&update) / run.scale;
-        search.distance = run.distance(memory);
+        search.distance = reached.distance;
         converged = search.distance <= settings.tolerance;
         if converged {
             break;
         }
-        correction.apply(&run.contact, keep_mean_load, &mut update);
-        search.advance(memory, &update, &weights);
+        map.correct(&run.contact, &mut update);
+        search.advance(reached.missing / run.scale, &update, &map.weights);
     }
     Ok(Steady {
         converged,
         cycles: search.cycles,
         distance: search.distance,
     })
+}
+
+/// How far a cycle is from the stabilised one.
+#[derive(Clone, Copy)]
+pub(super) struct Reached {
+    /// Of its memory, in the unit of the nodal pressure: a measure that does not itself change with the memory, unlike one relative
+    /// to the pressure of the cycle.
+    pub(super) missing: f64,
+    /// As [`SteadySettings::tolerance`] bounds it: of the memory, relative to the pressure, or of the loop to a closed one; infinite
+    /// where no pressure arose.
+    pub(super) distance: f64,
+}
+
+/// The map from the memory at the start of a cycle to that at its end, and what is known of it in advance.
+pub(super) struct CycleMap<'a> {
+    cycle: &'a Cycle<'a>,
+    stop: &'a dyn Fn() -> bool,
+    remaining: Remaining,
+    correction: Correction,
+    /// Weights of the memory variables in least squares.
+    pub(super) weights: Vec<f64>,
+}
+
+impl<'a> CycleMap<'a> {
+    pub(super) fn new(march: &March<'_>, cycle: &'a Cycle<'a>, stop: &'a dyn Fn() -> bool) -> Self {
+        let (compliance, nodes) = (march.memory().compliance(), march.pressure().len());
+        let remaining = Remaining::new(compliance, cycle.period_s, nodes);
+        let (loads, period) = (
+            march.loads_per_nodal_pressure(),
+            (cycle.period_s, cycle.steps),
+        );
+        let correction = Correction::new(compliance, period, &remaining, loads);
+        Self {
+            cycle,
+            stop,
+            weights: correction.weights(nodes),
+            remaining,
+            correction,
+        }
+    }
+
+    /// Solves the cycle from this memory and puts into `change` what it does to the memory. Its first instant is a jump: the pressure
+    /// that belongs to the memory and to the drive's value there. `None` where it was stopped.
+    pub(super) fn cycle(
+        &self,
+        march: &mut March<'_>,
+        start: &[f64],
+        run: &mut Run,
+        change: &mut [f64],
+    ) -> Result<Option<Reached>, ContactError> {
+        let (remaining, drive) = (&self.remaining, self.cycle.drive);
+        march.recall(start);
+        run.contact.clear();
+        run.scale = 0.0;
+        run.load_n.clear();
+        run.approach_m.clear();
+        let share = 1.0 / self.cycle.steps as f64;
+        let first = march.jump(drive(0.0))?;
+        run.sample(&first);
+        march.begin_cycle(remaining.first_held());
+        for step in 1..=self.cycle.steps {
+            if (self.stop)() {
+                return Ok(None);
+            }
+            let begun = (step - 1) as f64;
+            march.step_in_stages(&run.stages, |end| drive((begun + end) * share))?;
+            if let Some(solution) = march.solution() {
+                run.sample(&solution);
+            }
+            run.contact.push(march.pressure());
+            run.scale = run.scale.max(remaining.size(march.pressure()));
+        }
+        remaining.change(start, march.memory(), change);
+        let missing = remaining.distance(change);
+        let memory = missing / run.scale;
+        let closure = cycle::closure_error(&run.load_n, &run.approach_m);
+        let closure = closure.filter(|_| memory.is_finite());
+        Ok(Some(Reached {
+            missing,
+            distance: closure.map_or(f64::INFINITY, |closure| memory.max(closure)),
+        }))
+    }
+
+    /// Turns a change over a cycle of this contact into what the nodes alone suggest for the memory at its start.
+    pub(super) fn correct(&self, contact: &ContactHistory, change: &mut [f64]) {
+        let keep_mean_load = matches!(self.cycle.mean, Prescribed::LoadN(_));
+        self.correction.apply(contact, keep_mean_load, change);
+    }
 }
 
 /// Where the search stands between two cycles.
@@ -173,47 +252,6 @@ impl Run {
             scale: 0.0,
             load_n: Vec::with_capacity(cycle.steps + 1),
             approach_m: Vec::with_capacity(cycle.steps + 1),
-        }
-    }
-
-    /// Solves one cycle from the memory the march holds. Its first instant is a jump: the pressure that belongs to the
-    /// memory and to the drive's value there. Says whether it came to its end.
-    pub(super) fn cycle(
-        &mut self,
-        march: &mut March<'_>,
-        cycle: &Cycle<'_>,
-        remaining: &Remaining,
-        stop: &dyn Fn() -> bool,
-    ) -> Result<bool, ContactError> {
-        self.contact.clear();
-        self.scale = 0.0;
-        self.load_n.clear();
-        self.approach_m.clear();
-        let share = 1.0 / cycle.steps as f64;
-        let first = march.jump((cycle.drive)(0.0))?;
-        self.sample(&first);
-        march.begin_cycle(remaining.first_held());
-        for step in 1..=cycle.steps {
-            if stop() {
-                return Ok(false);
-            }
-            let begun = (step - 1) as f64;
-            march.step_in_stages(&self.stages, |end| (cycle.drive)((begun + end) * share))?;
-            if let Some(solution) = march.solution() {
-                self.sample(&solution);
-            }
-            self.contact.push(march.pressure());
-            self.scale = self.scale.max(remaining.size(march.pressure()));
-        }
-        Ok(true)
-    }
-
-    /// The distance to the stabilised cycle: of the memory, given relative to the pressure, or of the loop to a closed one; infinite
-    /// where no pressure arose.
-    pub(super) fn distance(&self, memory: f64) -> f64 {
-        match cycle::closure_error(&self.load_n, &self.approach_m) {
-            Some(closure) if memory.is_finite() => memory.max(closure),
-            _ => f64::INFINITY,
         }
     }
 

@@ -5,17 +5,15 @@
 //! different pieces, which belong to none, and may lead in circles for ever. Here every system is of one piece, that of the memory
 //! reached: its matrix is known from cycles beside that memory, so near that hardly a cell changes, and Anderson acceleration, on a
 //! linear map a method of least residuals (H. F. Walker and P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715), solves it, preconditioned
-//! with the monodromy of the nodes alone ([`Correction`]). The step is halved until the distance falls, as it does, on a piece, for an
+//! with the monodromy of the nodes alone ([`Correction`](super::correction::Correction)). The step is halved until the distance falls, as it does, on a piece, for an
 //! exact one. There is one answer alone: of the energy by which two memories differ every cycle takes away a part, whichever of load
 //! or approach is prescribed.
 //!
 //! [`find`]: super::find
 
 use super::anderson::Anderson;
-use super::correction::Correction;
-use super::iteration::{Cycle, Run, Steady, SteadySettings};
-use super::remaining::Remaining;
-use crate::contact::{ContactError, Prescribed};
+use super::iteration::{Cycle, CycleMap, Reached, Run, Steady, SteadySettings};
+use crate::contact::ContactError;
 use crate::history::March;
 
 /// How far beside a memory the map is looked at, as a part of its size: far enough for the tolerance of an instant.
@@ -57,22 +55,8 @@ pub(crate) fn find_by_newton(
     })
 }
 
-/// How far a cycle is from the stabilised one.
-#[derive(Clone, Copy)]
-struct Reached {
-    /// Of its memory, in the unit of the nodal pressure: a measure that does not itself change with the memory, unlike one relative
-    /// to the pressure of the cycle.
-    missing: f64,
-    /// As [`SteadySettings::tolerance`] bounds it.
-    distance: f64,
-}
-
 struct Newton<'a> {
-    cycle: &'a Cycle<'a>,
-    stop: &'a dyn Fn() -> bool,
-    remaining: Remaining,
-    correction: Correction,
-    weights: Vec<f64>,
+    map: CycleMap<'a>,
     /// The memory reached, and how its cycle changes it.
     start: Vec<f64>,
     change: Vec<f64>,
@@ -87,19 +71,9 @@ struct Newton<'a> {
 
 impl<'a> Newton<'a> {
     fn new(march: &March<'_>, cycle: &'a Cycle<'a>, stop: &'a dyn Fn() -> bool) -> Self {
-        let compliance = march.memory().compliance();
-        let nodes = march.pressure().len();
-        let remaining = Remaining::new(compliance, cycle.period_s, nodes);
-        let loads = march.loads_per_nodal_pressure();
-        let of_period = (cycle.period_s, cycle.steps);
-        let correction = Correction::new(compliance, of_period, &remaining, loads);
         let start = march.memory().variables().to_vec();
         Self {
-            cycle,
-            stop,
-            weights: correction.weights(nodes),
-            remaining,
-            correction,
+            map: CycleMap::new(march, cycle, stop),
             change: vec![0.0; start.len()],
             run: Run::new(march, cycle),
             reached: Reached {
@@ -120,16 +94,10 @@ impl<'a> Newton<'a> {
         march: &mut March<'_>,
         start: &[f64],
     ) -> Result<Option<Reached>, ContactError> {
-        march.recall(start);
-        let (run, remaining) = (&mut self.tried, &self.remaining);
-        if !run.cycle(march, self.cycle, remaining, self.stop)? {
-            return Ok(None);
-        }
-        self.cycles += 1;
-        remaining.change(start, march.memory(), &mut self.tried_change);
-        let missing = remaining.distance(&self.tried_change);
-        let distance = run.distance(missing / run.scale);
-        Ok(Some(Reached { missing, distance }))
+        let (run, change) = (&mut self.tried, &mut self.tried_change);
+        let reached = self.map.cycle(march, start, run, change)?;
+        self.cycles += usize::from(reached.is_some());
+        Ok(reached)
     }
 
     /// Makes the memory whose cycle was the last the one reached; returns its distance.
@@ -142,15 +110,13 @@ impl<'a> Newton<'a> {
     }
 
     fn size(&self, field: &[f64]) -> f64 {
-        let entries = field.iter().zip(&self.weights);
+        let entries = field.iter().zip(&self.map.weights);
         entries.map(|(x, w)| (w * x).powi(2)).sum::<f64>().sqrt()
     }
 
     /// What the nodes alone suggest for a change over a cycle that is in `tried_change`, in its place. Returns its size.
     fn suggest(&mut self) -> f64 {
-        let keep_mean_load = matches!(self.cycle.mean, Prescribed::LoadN(_));
-        let contact = &self.run.contact;
-        (self.correction).apply(contact, keep_mean_load, &mut self.tried_change);
+        (self.map).correct(&self.run.contact, &mut self.tried_change);
         self.size(&self.tried_change)
     }
 
@@ -187,7 +153,7 @@ impl<'a> Newton<'a> {
             if self.suggest() < LEFT * suggested {
                 break;
             }
-            anderson.advance(&mut self.direction, &self.tried_change, &self.weights);
+            anderson.advance(&mut self.direction, &self.tried_change, &self.map.weights);
         }
         Ok(true)
     }
@@ -216,6 +182,7 @@ impl<'a> Newton<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::Prescribed;
     use crate::contact::axisymmetric::{Axisymmetric, Edge};
     use crate::history::TimeRule;
     use crate::material::{Creep, CreepBranch};

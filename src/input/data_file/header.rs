@@ -7,7 +7,7 @@ use super::rows::{line_at, plain_number};
 use super::text::{self, DELIMITERS, Lines};
 use super::{Column, factor};
 use crate::input::diagnostic::{Diagnostic, Location, Source};
-use crate::quantity::{Dimension, QuantityError};
+use crate::quantity::{Dimension, QuantityError, QuantityProblem};
 
 /// A line cut into cells, the names of columns in most files.
 pub(super) struct Header<'a> {
@@ -108,7 +108,14 @@ impl<'a> Header<'a> {
         let units: Vec<Option<(String, Location)>> = found.iter().map(unit).collect();
         let is_unit = |unit: &str| {
             let read = factor(unit, Dimension::Time);
-            matches!(read, Ok(_) | Err(QuantityError::WrongDimension { .. }))
+            matches!(
+                read,
+                Ok(_)
+                    | Err(QuantityError {
+                        problem: QuantityProblem::WrongDimension { .. },
+                        ..
+                    })
+            )
         };
         let some = || units.iter().flatten().map(|(unit, _)| unit.as_str());
         let is_row = some().any(is_unit) && !some().any(|unit| unit.parse::<f64>().is_ok());

@@ -62,7 +62,11 @@ pub(super) fn is_unit(text: &str) -> bool {
     known
         || matches!(
             read,
-            Ok(_) | Err(quantity::QuantityError::WrongDimension { .. })
+            Ok(_)
+                | Err(quantity::QuantityError {
+                    problem: quantity::QuantityProblem::WrongDimension { .. },
+                    ..
+                })
         )
 }
 
