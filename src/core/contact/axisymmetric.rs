@@ -13,17 +13,12 @@
 //! the integral above. What is left is the spring that holds the contact edge, at most slope dx^2 / 8: about 1e-6 of the load for
 //! 400 springs. Widths may differ along the row: finer where the edge moves.
 
-mod monotone;
-mod peak;
-mod profile;
-mod roots;
+mod abel;
 
 use super::half_space::grid::Grid;
 use super::surface::{PressureLine, Response, Surface};
 use super::{ContactError, Engine, Instant, Prescribed, Solution, sums};
-use monotone::Monotone;
-use peak::Slopes;
-use roots::Roots;
+use abel::Roots;
 
 /// The row of springs of one indenter.
 #[derive(Debug, Clone)]
@@ -39,9 +34,7 @@ pub struct Axisymmetric {
     /// G + H per spring.
     offset_m: Vec<f64>,
     /// For the inverse Abel transform.
-    slopes: Slopes,
     roots: Roots,
-    reported: Monotone,
     approach_m: f64,
 }
 
@@ -98,9 +91,7 @@ impl Axisymmetric {
                 false => vec![0.0],
             },
             offset_m: vec![0.0; springs],
-            slopes: Slopes::new(&position_m),
-            roots: Roots::new(&position_m),
-            reported: Monotone::default(),
+            roots: Roots::new(springs),
             approach_m: 0.0,
             position_m,
             width_m,
