@@ -17,7 +17,7 @@ use std::f64::consts::PI;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::contact::half_space::layer::Layer;
+use crate::contact::half_space::layer::{Layer, waves};
 
 /// The equation for contacts of one radius, on nodes of a Gauss-Legendre rule.
 pub struct LayerContact {
@@ -45,7 +45,12 @@ impl LayerContact {
             .collect();
         let mut places: Vec<f64> = nodes.iter().map(|node| node.0).collect();
         places.push(radius_m);
-        let kernel = kernel(&waves(&layer, 2.0 * radius_m), &places);
+        let thickness_m = layer.thickness_m;
+        let waves = waves(&layer, 2.0 * radius_m / thickness_m);
+        let in_metres = waves
+            .iter()
+            .map(|(x, value)| (x / thickness_m, value / thickness_m));
+        let kernel = kernel(&in_metres.collect::<Vec<_>>(), &places);
         let matrix = DMatrix::from_fn(nodes.len(), nodes.len(), |row, column| {
             let own = if row == column { 1.0 } else { 0.0 };
             own + kernel[(row, column)] * nodes[column].1
@@ -95,30 +100,6 @@ impl LayerContact {
             approach_m,
         })
     }
-}
-
-/// Wave numbers (1/m), and (S - 1) times the weight of a quadrature that resolves `cos(k z)` up to this z (m).
-fn waves(layer: &Layer, farthest_m: f64) -> Vec<(f64, f64)> {
-    /// Wave number in thicknesses beyond which S - 1 is rounding.
-    const LONGEST: f64 = 24.0;
-    const NODES: usize = 16;
-    // At most 4 rad within a piece, of which 16 nodes leave nothing.
-    let widest = (4.0 * layer.thickness_m / farthest_m).min(LONGEST / 64.0);
-    // On a soft base S falls within a wave number of about the stiffness of the base.
-    let first = layer.softening(0.0).max(1.0).recip();
-    let rule = legendre(NODES);
-    let mut waves = Vec::new();
-    let mut from = 0.0;
-    while from < LONGEST {
-        let half = 0.5 * widest.min(0.5 * (from + first));
-        for (node, weight) in &rule {
-            let x = from + half * (1.0 + node);
-            let value = half * weight * layer.softening_less_one(x);
-            waves.push((x / layer.thickness_m, value / layer.thickness_m));
-        }
-        from += 2.0 * half;
-    }
-    waves
 }
 
 /// (1/pi) [kappa(t - s) + kappa(t + s)], 1/m, between each two of these places (m): cosines of the sum and of the difference are a

@@ -432,8 +432,8 @@ impl LayerInfluence {
     }
 }
 
-/// Wave numbers x, and S(x) - 1 times the weight of a quadrature over them, for integrands that oscillate up to `cos(farthest x)`.
-fn waves(layer: &Layer, farthest: f64) -> Vec<(f64, f64)> {
+/// Wave numbers x = kh, and S(x) - 1 times the weight of a quadrature over them, for integrands that oscillate up to `cos(farthest x)`.
+pub(crate) fn waves(layer: &Layer, farthest: f64) -> Vec<(f64, f64)> {
     /// What the fastest integrand turns by (rad) within each piece, of which 8 points leave 1e-18.
     const TURN: f64 = 2.25;
     let widest = (TURN / farthest).min(0.1);
