@@ -199,8 +199,12 @@ pub trait Engine: Send {
     /// # Errors
     /// As [`Engine::surface`].
     fn surface_density(&mut self, nodal: &[f64], radius_m: f64) -> Result<Surface, ContactError> {
-        let undisturbed = vec![0.0; nodal.len()];
-        self.surface(&Response::of_density(nodal, &undisturbed, radius_m))
+        self.surface(&Response {
+            pressure: nodal,
+            history: &vec![0.0; nodal.len()],
+            compliance_per_pa: 0.0,
+            contact_radius_m: radius_m,
+        })
     }
 
     /// Pressure and displacement of the surface, inside and outside the contact.

@@ -17,18 +17,6 @@ pub struct Response<'a> {
     pub contact_radius_m: f64,
 }
 
-impl<'a> Response<'a> {
-    /// What stands for a pressure that moves nothing, on a body without `history`.
-    pub fn of_density(nodal: &'a [f64], history: &'a [f64], radius_m: f64) -> Self {
-        Self {
-            pressure: nodal,
-            history,
-            compliance_per_pa: 0.0,
-            contact_radius_m: radius_m,
-        }
-    }
-}
-
 /// The surface at one instant. Displacements are positive into the body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Surface {
@@ -83,4 +71,22 @@ pub struct PressureLine {
     pub along: Along,
     pub position_m: Vec<f64>,
     pub pressure_pa: Vec<Option<f64>>,
+}
+
+impl PressureLine {
+    /// The pressure of a field along the row and along the column through the centre of its grid.
+    pub(super) fn through_centre(grid: &Grid, pressure: &[f64]) -> Vec<Self> {
+        let lines = [
+            (Along::X, grid.centre_row()),
+            (Along::Y, grid.centre_column()),
+        ];
+        let mean = |(_, [a, b]): &(f64, [usize; 2])| Some(0.5 * (pressure[*a] + pressure[*b]));
+        lines
+            .map(|(along, places)| Self {
+                along,
+                position_m: places.iter().map(|(position_m, _)| *position_m).collect(),
+                pressure_pa: places.iter().map(mean).collect(),
+            })
+            .into()
+    }
 }

@@ -18,9 +18,9 @@ mod length;
 mod mirrored;
 mod period;
 mod periodic_row;
+mod preconditioner;
 mod shared;
 mod spectral;
-mod window;
 
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
@@ -36,9 +36,9 @@ pub(super) use length::window_length;
 use mirrored::{MirroredColumn, MirroredRow};
 pub use period::PeriodicOperator;
 use periodic_row::PeriodicRow;
+pub use preconditioner::Preconditioner;
 pub use spectral::Scratch;
 use spectral::{Column, Row, SpectralProduct};
-pub use window::{Preconditioner, WindowOperators};
 
 /// Why a convolution cannot be set up or applied.
 #[derive(Debug, Error)]
@@ -90,7 +90,7 @@ struct Operators {
     layer: Option<Arc<LayerInfluence>>,
     product: SpectralProduct,
     /// What windows of this grid need, by their cells along x and y, built when first asked for.
-    windows: Mutex<Vec<Window>>,
+    windows: Mutex<Vec<CachedWindow>>,
 }
 
 /// Operators of half-spaces in use.
@@ -115,16 +115,16 @@ impl Operators {
         })
     }
 
-    fn window(&self, cells: (usize, usize)) -> Result<Window, ConvolutionError> {
+    fn window(&self, cells: (usize, usize)) -> Result<CachedWindow, ConvolutionError> {
         let windows = || self.windows.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = |windows: &[Window]| windows.iter().find(|w| w.cells == cells).cloned();
+        let known = |windows: &[CachedWindow]| windows.iter().find(|w| w.cells == cells).cloned();
         if let Some(window) = known(&windows()) {
             return Ok(window);
         }
         // On a layer this takes long: those who ask for other windows do not wait.
         let grid = self.grid.part(cells.0, cells.1);
         let layer = self.layer.as_ref().map(|influence| influence.layer());
-        let window = Window {
+        let window = CachedWindow {
             cells,
             operators: match cells == (self.grid.cells_x(), self.grid.cells_y()) {
                 true => None,
@@ -143,11 +143,18 @@ impl Operators {
 
 /// What a window needs.
 #[derive(Clone)]
-struct Window {
+struct CachedWindow {
     cells: (usize, usize),
     /// `None` of the whole grid, whose operators exist already.
     operators: Option<Arc<Operators>>,
     preconditioner: Arc<Preconditioner>,
+}
+
+/// What solves a contact in a window of a grid: the half-space restricted to it, and what nearly inverts that; from
+/// [`Convolution::window`].
+pub struct WindowOperators {
+    pub convolution: Convolution,
+    pub preconditioner: Arc<Preconditioner>,
 }
 
 /// The one of those in use that `is_this`; a new one, where there is none.
@@ -804,5 +811,18 @@ mod tests {
             let mirrored = Grid::new(2, 2 * cells, 1.0, 1.0).unwrap().quarter();
             assert!(padded(mirrored.unwrap()).1 >= 4 * cells - 1);
         }
+    }
+
+    #[test]
+    fn a_window_is_built_once_and_never_larger_than_the_grid() {
+        let grid = Grid::new(50, 40, 1.0, 1.0).unwrap();
+        let whole = Convolution::new(grid).unwrap();
+        let [window, again] = [(); 2].map(|()| whole.window(32, 28).unwrap());
+        assert_eq!(window.convolution.grid().cells(), 32 * 28);
+        let operators = |window: &WindowOperators| Arc::as_ptr(&window.convolution.operators);
+        assert_eq!(operators(&window), operators(&again));
+        assert!(Arc::ptr_eq(&window.preconditioner, &again.preconditioner));
+        let all = whole.window(80, 80).unwrap();
+        assert_eq!(operators(&all), Arc::as_ptr(&whole.operators));
     }
 }

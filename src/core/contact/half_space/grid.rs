@@ -10,8 +10,6 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::contact::surface::{Along, PressureLine};
-
 /// Most cells a grid may have: 2^26, that is 8192 x 8192, whose fields take 0.5 GiB each.
 pub const MAX_CELLS: usize = 1 << 26;
 
@@ -164,7 +162,7 @@ impl Grid {
         self.spacing_x_m * self.spacing_y_m
     }
 
-    /// So many of its cells along either side, at most all, as a grid of their own.
+    /// A grid of this many of its cells along either side, at most of all.
     pub(super) fn part(&self, cells_x: usize, cells_y: usize) -> Self {
         Self {
             cells_x: cells_x.clamp(1, self.cells_x),
@@ -248,22 +246,6 @@ impl Grid {
         let columns = middle(whole.cells_x);
         let place = |iy| (whole.y_m(iy), columns.map(|ix| self.cell_at(ix, iy)));
         (0..whole.cells_y).map(place).collect()
-    }
-
-    /// The pressure of a field along the row and along the column through the centre.
-    pub(in super::super) fn pressure_lines(&self, pressure: &[f64]) -> Vec<PressureLine> {
-        let lines = [
-            (Along::X, self.centre_row()),
-            (Along::Y, self.centre_column()),
-        ];
-        let mean = |(_, [a, b]): &(f64, [usize; 2])| Some(0.5 * (pressure[*a] + pressure[*b]));
-        lines
-            .map(|(along, places)| PressureLine {
-                along,
-                position_m: places.iter().map(|(position_m, _)| *position_m).collect(),
-                pressure_pa: places.iter().map(mean).collect(),
-            })
-            .into()
     }
 
     /// The cell of this grid that holds the value of a cell of [`Grid::whole`].

@@ -12,7 +12,7 @@ use std::sync::atomic::AtomicBool;
 
 pub use super::convolution::PeriodicOperator;
 use super::instant::{Imposed, SolverSettings};
-use super::polonsky_keer::{Given, PolonskyKeer, Residual};
+use super::polonsky_keer::{InstantProblem, PolonskyKeer, Residual};
 use crate::contact::surface::{PressureLine, Response, Surface};
 use crate::contact::{
     ContactError, Engine, Instant, Prescribed, Solution, highest, sums, surface_of_cells,
@@ -73,7 +73,7 @@ impl Engine for Periodic {
             }
         };
         let area_m2 = self.operator.grid().cell_area_m2();
-        let given = Given {
+        let given = InstantProblem {
             operator: &|p, u, scratch| self.operator.apply(p, u, scratch),
             reference_m: Residual::displacement_range_m,
             settings: self.settings,
@@ -120,7 +120,7 @@ impl Engine for Periodic {
     }
 
     fn pressure_lines(&self, pressure: &[f64], _solution: &Solution) -> Vec<PressureLine> {
-        self.operator.grid().pressure_lines(pressure)
+        PressureLine::through_centre(self.operator.grid(), pressure)
     }
 
     fn elastic_displacement(

@@ -33,7 +33,7 @@ pub(super) struct PolonskyKeer {
 }
 
 /// What does not change during an instant.
-pub(super) struct Given<'a> {
+pub(super) struct InstantProblem<'a> {
     pub(super) operator: &'a Operator<'a>,
     /// The displacement (m) of which the tolerance is a part; `None` while nothing is in contact.
     pub(super) reference_m: fn(&Residual) -> Option<f64>,
@@ -71,7 +71,7 @@ impl PolonskyKeer {
     /// iterations; `None` where no pressure at all is the solution.
     pub(super) fn solve(
         &mut self,
-        given: &Given<'_>,
+        given: &InstantProblem<'_>,
         history: &[f64],
         pressure: &mut [f64],
         taken: usize,
@@ -89,7 +89,7 @@ impl PolonskyKeer {
     /// free gap = g + B H.
     pub(super) fn prepare_free_gap(
         &mut self,
-        given: &Given<'_>,
+        given: &InstantProblem<'_>,
         history: &[f64],
     ) -> Result<(), ContactError> {
         if history.iter().all(|h| *h == 0.0) {
@@ -165,7 +165,7 @@ impl PolonskyKeer {
     /// contact. `None` where there is no curvature.
     fn step_length(
         &mut self,
-        given: &Given<'_>,
+        given: &InstantProblem<'_>,
         product: f64,
         load_controlled: bool,
         pressure: &[f64],
@@ -221,7 +221,7 @@ impl PolonskyKeer {
     /// One pass: direction, step, projection, load. False where the direction has no curvature, and nothing moved.
     fn advance(
         &mut self,
-        given: &Given<'_>,
+        given: &InstantProblem<'_>,
         residual: &Residual,
         state: &mut IterationState,
         pressure: &mut [f64],
@@ -260,7 +260,7 @@ impl PolonskyKeer {
     }
 
     /// Gap sums; the approach is prescribed or, under load control, found here.
-    fn residual(&self, given: &Given<'_>, pressure: &[f64]) -> Residual {
+    fn residual(&self, given: &InstantProblem<'_>, pressure: &[f64]) -> Residual {
         let compliance = given.compliance;
         let cells = || {
             let fields = self.free_gap_m.iter().zip(&self.displacement);
@@ -302,7 +302,7 @@ impl PolonskyKeer {
     /// The iteration. Returns the residual at the end and the iterations taken.
     pub(super) fn iterate(
         &mut self,
-        given: &Given<'_>,
+        given: &InstantProblem<'_>,
         pressure: &mut [f64],
         taken: usize,
     ) -> Result<(Residual, usize), ContactError> {

@@ -25,7 +25,7 @@ use windows::Windows;
 
 use super::convolution::{Convolution, ConvolutionError};
 use super::instant::{Imposed, SolverSettings};
-use super::polonsky_keer::{Given, PolonskyKeer, Residual};
+use super::polonsky_keer::{InstantProblem, PolonskyKeer, Residual};
 use crate::contact::surface::{PressureLine, Response, Surface};
 use crate::contact::{
     ContactError, Engine, Instant, Prescribed, Solution, highest, sums, surface_of_cells,
@@ -62,7 +62,7 @@ pub struct HalfSpace {
 }
 
 /// An instant solved.
-struct Found {
+struct InstantResult {
     approach_m: f64,
     pressure_sum: f64,
     steps: usize,
@@ -185,13 +185,13 @@ impl HalfSpace {
         imposed: Imposed,
         pressure: &mut [f64],
         work: &mut Work,
-    ) -> Result<Found, ContactError> {
+    ) -> Result<InstantResult, ContactError> {
         self.safeguarded += 1;
         let cells = self.gap_m.len();
         let new = || Box::new(PolonskyKeer::new(cells));
         let safeguard = self.safeguard.get_or_insert_with(new);
         safeguard.convolutions = 0;
-        let given = Given {
+        let given = InstantProblem {
             operator: &|p, u, scratch| self.operator.apply(p, u, scratch),
             reference_m: Residual::weighted_displacement_m,
             settings: self.settings,
@@ -205,13 +205,13 @@ impl HalfSpace {
         let found = match solved? {
             None => {
                 pressure.fill(0.0);
-                Found {
+                InstantResult {
                     approach_m: imposed.approach_m().unwrap_or(0.0),
                     pressure_sum: 0.0,
                     steps: work.steps,
                 }
             }
-            Some((residual, steps)) => Found {
+            Some((residual, steps)) => InstantResult {
                 approach_m: imposed
                     .approach_m()
                     .unwrap_or_else(|| residual.mean_approach_m()),
@@ -255,7 +255,7 @@ impl HalfSpace {
         instant: &Instant<'_>,
         pressure: &mut [f64],
         work: &mut Work,
-    ) -> Result<Found, ContactError> {
+    ) -> Result<InstantResult, ContactError> {
         pressure.fill(0.0);
         let grid = *self.operator.grid();
         let history = Frame::of(instant.history, grid.cells_x());
@@ -270,7 +270,7 @@ impl HalfSpace {
         if window != Frame::whole(&grid) && !self.is_clear_beyond(windows, approach_m) {
             approach_m = sums::least(&self.whole_gap(windows, work)?);
         }
-        Ok(Found {
+        Ok(InstantResult {
             approach_m,
             pressure_sum: 0.0,
             steps: 0,
@@ -284,7 +284,7 @@ impl HalfSpace {
         prescribed: Prescribed,
         pressure: &mut [f64],
         work: &mut Work,
-    ) -> Result<Found, ContactError> {
+    ) -> Result<InstantResult, ContactError> {
         let imposed = match prescribed {
             Prescribed::LoadN(0.0) => return self.out_of_contact(instant, pressure, work),
             Prescribed::LoadN(load_n) => Imposed::PressureSum(load_n / self.nodal_area_m2()),
@@ -374,7 +374,7 @@ impl Engine for HalfSpace {
     }
 
     fn pressure_lines(&self, pressure: &[f64], _solution: &Solution) -> Vec<PressureLine> {
-        self.operator.grid().pressure_lines(pressure)
+        PressureLine::through_centre(self.operator.grid(), pressure)
     }
 
     fn elastic_displacement(

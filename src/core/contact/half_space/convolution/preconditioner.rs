@@ -1,24 +1,24 @@
-//! The operators of one rectangular window of a larger grid: the half-space restricted to it, and what nearly inverts it.
+//! What nearly inverts the half-space operator on one rectangular window of a grid.
 //!
 //! Pressure in a window moves the window's own cells as the grid of these cells alone would, so the operator is a smaller
-//! [`Convolution`]. Its inverse is nearly a product with the reciprocal of its spectrum on the unpadded window, |q|/2 at the
-//! wave number q where cells are small: a pressure that is a wave bends the half-space into the same wave of amplitude 2/|q|
-//! (H. M. Stanley and T. Kato, J. Tribology 119 (1997) 481). Conjugate gradients preconditioned with it need few steps, whose
+//! [`Convolution`](super::Convolution). Its inverse is nearly a product with the reciprocal of its spectrum on the unpadded window,
+//! |q|/2 at the wave number q where cells are small: a pressure that is a wave bends the half-space into the same wave of amplitude
+//! 2/|q| (H. M. Stanley and T. Kato, J. Tribology 119 (1997) 481). Conjugate gradients preconditioned with it need few steps, whose
 //! number hardly depends on the grid. A layer bends into a wave smaller by a factor known in closed form.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
-use std::sync::Arc;
 
 use super::even_column::EvenColumn;
 use super::length::{fast_column, fast_row_half};
 use super::periodic_row::PeriodicRow;
 use super::spectral::{Column, Row, SpectralProduct};
-use super::{Convolution, ConvolutionError, Influence, Scratch, even_column};
+use super::{ConvolutionError, Influence, Scratch, even_column};
 use crate::contact::half_space::grid::Grid;
 use crate::contact::half_space::layer::Layer;
 
-/// A symmetric positive product that nearly inverts the half-space operator on one window.
+/// A symmetric positive product that nearly inverts the half-space operator on one window, but for a factor: conjugate gradients take
+/// the same steps whatever that is.
 pub struct Preconditioner {
     product: SpectralProduct,
 }
@@ -27,7 +27,7 @@ impl Preconditioner {
     /// For windows like this grid, on a layer where there is one.
     ///
     /// # Errors
-    /// As [`Convolution::new`].
+    /// As [`Convolution::new`](super::Convolution::new).
     pub fn on(grid: &Grid, layer: Option<&Layer>) -> Result<Self, ConvolutionError> {
         // The coefficients of a layer cut off at half the window may have no positive spectrum.
         let influence = Influence::new(grid);
@@ -91,26 +91,9 @@ impl<'a> Softening<'a> {
     }
 }
 
-/// What a window needs; from [`Convolution::window`].
-pub struct WindowOperators {
-    pub(super) convolution: Convolution,
-    pub(super) preconditioner: Arc<Preconditioner>,
-}
-
-impl WindowOperators {
-    /// The half-space restricted to the window.
-    pub fn convolution(&self) -> &Convolution {
-        &self.convolution
-    }
-
-    /// What nearly inverts it, but for a factor: conjugate gradients take the same steps whatever that is.
-    pub fn preconditioner(&self) -> &Preconditioner {
-        &self.preconditioner
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::Convolution;
     use super::*;
 
     /// Windows from one cell to long strips, with square and oblong cells.
@@ -189,18 +172,5 @@ mod tests {
             let wanted = (9..14).contains(&(cell / 20));
             assert_eq!(*value, if wanted { whole[cell] } else { -1.0 });
         }
-    }
-
-    #[test]
-    fn a_window_is_built_once_and_never_larger_than_the_grid() {
-        let grid = Grid::new(50, 40, 1.0, 1.0).unwrap();
-        let whole = Convolution::new(grid).unwrap();
-        let [window, again] = [(); 2].map(|()| whole.window(32, 28).unwrap());
-        assert_eq!(window.convolution().grid().cells(), 32 * 28);
-        let operators = |window: &WindowOperators| Arc::as_ptr(&window.convolution.operators);
-        assert_eq!(operators(&window), operators(&again));
-        assert!(Arc::ptr_eq(&window.preconditioner, &again.preconditioner));
-        let all = whole.window(80, 80).unwrap();
-        assert_eq!(operators(&all), Arc::as_ptr(&whole.operators));
     }
 }

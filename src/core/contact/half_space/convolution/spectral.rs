@@ -100,7 +100,7 @@ struct Shape {
 }
 
 impl Shape {
-    /// So many columns of this length.
+    /// The shape of this many columns of this length on a grid.
     fn new(grid: &Grid, columns: usize, column_length: usize) -> Self {
         let rows = grid.cells_y().next_multiple_of(TILE);
         let panels = shared::panels(grid.cells());

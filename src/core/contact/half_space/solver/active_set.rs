@@ -23,7 +23,7 @@ use crate::contact::{ContactError, go_on};
 
 /// What a window's problem is, apart from its fields.
 #[derive(Clone, Copy)]
-pub(super) struct Problem<'a> {
+pub(super) struct WindowProblem<'a> {
     pub(super) whole: &'a Convolution,
     pub(super) operators: &'a WindowOperators,
     pub(super) frame: Frame,
@@ -38,9 +38,9 @@ pub(super) struct Problem<'a> {
     pub(super) noise_m: f64,
 }
 
-/// How it ended.
+/// Why the iteration in a window stopped.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Ending {
+pub(super) enum StopReason {
     /// To the tolerance.
     Converged,
     /// Too little progress: not the way for this problem.
@@ -49,9 +49,9 @@ pub(super) enum Ending {
     OutOfSteps,
 }
 
-/// Where a pressure stands.
+/// How far an iterate is from the solution.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct State {
+pub(super) struct IterateState {
     pub(super) approach_m: f64,
     pub(super) pressure_sum: f64,
     /// What the tolerance bounds.
@@ -128,38 +128,38 @@ impl ActiveSet {
     /// Solves from the pressure and gap given, until the residual is below the tolerance or `steps` are counted.
     pub(super) fn solve(
         &mut self,
-        problem: &Problem<'_>,
+        problem: &WindowProblem<'_>,
         steps: usize,
         scratch: &mut Scratches,
         work: &mut Work,
-    ) -> Result<(State, Ending), ContactError> {
+    ) -> Result<(IterateState, StopReason), ContactError> {
         let (mut best, mut best_at) = (f64::INFINITY, work.steps);
         let steps = steps.min(problem.fast_steps);
         loop {
             let state = self.assess(problem);
             if state.residual <= problem.tolerance {
-                return Ok((state, Ending::Converged));
+                return Ok((state, StopReason::Converged));
             }
             if work.steps >= problem.fast_steps {
-                return Ok((state, Ending::Stalled));
+                return Ok((state, StopReason::Stalled));
             }
             if work.steps >= steps {
-                return Ok((state, Ending::OutOfSteps));
+                return Ok((state, StopReason::OutOfSteps));
             }
             if state.residual < 0.5 * best {
                 (best, best_at) = (state.residual, work.steps);
             }
             if work.steps > best_at + PATIENCE || self.contact.cells() == 0 {
-                return Ok((state, Ending::Stalled));
+                return Ok((state, StopReason::Stalled));
             }
             if !self.solve_on_contact(problem, &state, steps, scratch, work)? {
-                return Ok((state, Ending::Stalled));
+                return Ok((state, StopReason::Stalled));
             }
         }
     }
 
     /// Gaps, penetration and contact: the cells with pressure, and those that penetrate.
-    fn assess(&mut self, problem: &Problem<'_>) -> State {
+    fn assess(&mut self, problem: &WindowProblem<'_>) -> IterateState {
         let cells_x = problem.frame.cells_x;
         let grid = problem.whole.grid();
         let step_y = grid.spacing_y_m() / grid.spacing_x_m();
@@ -173,9 +173,9 @@ impl ActiveSet {
                 [if p > 0.0 { p * gap } else { 0.0 }]
             })[0];
         }
-        let mut state = State {
+        let mut state = IterateState {
             pressure_sum: moments.sum(),
-            ..State::default()
+            ..IterateState::default()
         };
         let loaded = state.pressure_sum > 0.0;
         let mean = |sum: f64| match loaded {
@@ -216,8 +216,8 @@ impl ActiveSet {
     /// p |gap|, the highest gap under pressure, at least 0, and the lowest gap outside, at most 0 (m).
     fn find_contact(
         &mut self,
-        problem: &Problem<'_>,
-        state: &State,
+        problem: &WindowProblem<'_>,
+        state: &IterateState,
         joining_m: f64,
     ) -> (f64, f64, f64) {
         let (mut misfit, mut lowest_m, mut highest_m) = (0.0, 0.0_f64, 0.0_f64);
@@ -250,8 +250,8 @@ impl ActiveSet {
     /// Conjugate gradients on the contact as it is. False where there is no way down.
     fn solve_on_contact(
         &mut self,
-        problem: &Problem<'_>,
-        state: &State,
+        problem: &WindowProblem<'_>,
+        state: &IterateState,
         steps: usize,
         scratch: &mut Scratches,
         work: &mut Work,
@@ -311,7 +311,7 @@ impl ActiveSet {
     /// The preconditioned constant under load control, and its sum.
     fn precondition_constant(
         &mut self,
-        problem: &Problem<'_>,
+        problem: &WindowProblem<'_>,
         scratch: &mut Scratches,
     ) -> Result<Option<f64>, ContactError> {
         if problem.target_sum.is_none() {
@@ -327,11 +327,11 @@ impl ActiveSet {
     /// The preconditioner applied to `field`, in the rows of `image` that have contact.
     fn apply_preconditioner(
         &mut self,
-        problem: &Problem<'_>,
+        problem: &WindowProblem<'_>,
         scratch: &mut Scratches,
     ) -> Result<(), ContactError> {
         let rows = self.contact.rows(problem.frame.cells_x);
-        let preconditioner = problem.operators.preconditioner();
+        let preconditioner = &problem.operators.preconditioner;
         let scratch = &mut scratch.preconditioner;
         Ok(preconditioner.apply(&self.field, &mut self.image, rows, scratch)?)
     }
@@ -339,7 +339,7 @@ impl ActiveSet {
     /// The residual: the approach, or under load control the mean over the contact of the gap before it, less that gap.
     /// Returns how far the gap is from none (m), on average by pressure or, if that says more, where it is highest; and the
     /// approach of which it is the gap.
-    fn update_residual(&mut self, problem: &Problem<'_>) -> (f64, f64) {
+    fn update_residual(&mut self, problem: &WindowProblem<'_>) -> (f64, f64) {
         let (mut gaps, mut pressures, mut lifted) = (0.0, 0.0, 0.0);
         for (run, _) in self.contact.runs() {
             let terms = |p: f64, gap: f64| [gap, p, p * gap];
@@ -380,7 +380,7 @@ impl ActiveSet {
     /// with the residual, and with the change of the residual's preconditioned form since the last step.
     fn precondition(
         &mut self,
-        problem: &Problem<'_>,
+        problem: &WindowProblem<'_>,
         constant_sum: Option<f64>,
         scratch: &mut Scratches,
     ) -> Result<(f64, f64), ContactError> {
@@ -402,7 +402,7 @@ impl ActiveSet {
     /// nowhere.
     fn step_length(
         &mut self,
-        problem: &Problem<'_>,
+        problem: &WindowProblem<'_>,
         beta: f64,
         scratch: &mut Scratches,
     ) -> Result<Option<f64>, ContactError> {
@@ -444,7 +444,7 @@ impl ActiveSet {
     /// Takes cells of negative pressure out of the contact, keeping the load, and follows with the gap.
     fn empty_negative(
         &mut self,
-        problem: &Problem<'_>,
+        problem: &WindowProblem<'_>,
         scratch: &mut Scratches,
     ) -> Result<(), ContactError> {
         let scale = match problem.target_sum {
@@ -476,11 +476,11 @@ impl ActiveSet {
 }
 
 fn convolve(
-    problem: &Problem<'_>,
+    problem: &WindowProblem<'_>,
     field: &[f64],
     image: &mut [f64],
     scratch: &mut Scratches,
 ) -> Result<(), ContactError> {
-    let convolution = problem.operators.convolution();
+    let convolution = &problem.operators.convolution;
     Ok(convolution.apply(field, image, &mut scratch.convolution)?)
 }

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use super::super::influence::Influence;
 use super::super::instant::{Imposed, ROUNDING, hertz_guess, start};
-use super::active_set::{Ending, Problem, State, Work};
+use super::active_set::{IterateState, StopReason, WindowProblem, Work};
 use super::frame::Frame;
 use super::outside::{Moments, OutsideGapBound, first_centre};
-use super::{Found, HalfSpace, sums};
+use super::{HalfSpace, InstantResult, sums};
 use crate::contact::{ContactError, Instant};
 
 /// Where an instant is solved, and where its sources of displacement are.
@@ -31,7 +31,7 @@ impl HalfSpace {
         imposed: Imposed,
         pressure: &mut [f64],
         work: &mut Work,
-    ) -> Result<Option<Found>, ContactError> {
+    ) -> Result<Option<InstantResult>, ContactError> {
         let grid = *self.operator.grid();
         let row = grid.cells_x();
         let mut guess = Frame::of(pressure, row);
@@ -53,9 +53,9 @@ impl HalfSpace {
             let (state, ending) = self.solve_in_window(windows, instant, imposed, work)?;
             contact.scatter(&self.fields.pressure, row, pressure);
             match ending {
-                Ending::Converged => {}
-                Ending::Stalled => return Ok(None),
-                Ending::OutOfSteps => {
+                StopReason::Converged => {}
+                StopReason::Stalled => return Ok(None),
+                StopReason::OutOfSteps => {
                     return Err(ContactError::NotConverged {
                         iterations: work.steps,
                         residual: state.residual,
@@ -72,7 +72,7 @@ impl HalfSpace {
             };
             let wider = contact.holding(beyond, &grid);
             if wider == contact {
-                return Ok(Some(Found {
+                return Ok(Some(InstantResult {
                     approach_m: state.approach_m,
                     pressure_sum: state.pressure_sum,
                     steps: work.steps,
@@ -133,7 +133,7 @@ impl HalfSpace {
         instant: &Instant<'_>,
         imposed: Imposed,
         work: &mut Work,
-    ) -> Result<(State, Ending), ContactError> {
+    ) -> Result<(IterateState, StopReason), ContactError> {
         let contact = windows.contact;
         let operator = Arc::clone(&self.operator);
         let operators = operator.window(contact.cells_x, contact.cells_y)?;
@@ -142,7 +142,7 @@ impl HalfSpace {
             work.convolutions += 1;
             work.carried = 0;
             let level_m = imposed.approach_m().unwrap_or(largest_m).abs();
-            let problem = Problem {
+            let problem = WindowProblem {
                 whole: &operator,
                 operators: &operators,
                 frame: contact,
@@ -157,7 +157,7 @@ impl HalfSpace {
             let ended = self
                 .fields
                 .solve(&problem, steps, &mut self.scratches, work)?;
-            if ended.1 != Ending::Converged || work.carried <= FRESH_STEPS {
+            if ended.1 != StopReason::Converged || work.carried <= FRESH_STEPS {
                 return Ok(ended);
             }
             // Rounding has piled up in a gap carried along by recursion: judge a fresh one.
@@ -173,9 +173,8 @@ impl HalfSpace {
         let Windows { contact, source } = windows;
         self.gather_source(windows, compliance_per_pa);
         let operators = self.operator.window(source.cells_x, source.cells_y)?;
-        let convolution = operators.convolution();
         let scratch = &mut self.scratches.convolution;
-        convolution.apply(&self.source, &mut self.lift_m, scratch)?;
+        (operators.convolution).apply(&self.source, &mut self.lift_m, scratch)?;
         let largest_m = -sums::least_of(&self.lift_m, |u| -u.abs());
         let part = source.part(&contact);
         let gap_m = &mut self.fields.gap_m;
@@ -197,7 +196,7 @@ impl HalfSpace {
         &mut self,
         windows: Windows,
         instant: &Instant<'_>,
-        state: &State,
+        state: &IterateState,
         work: &mut Work,
     ) -> Result<Option<Frame>, ContactError> {
         let grid = *self.operator.grid();
