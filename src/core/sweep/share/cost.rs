@@ -157,34 +157,20 @@ impl Setup {
 pub(super) fn predicted(setup: &Setup) -> Result<(f64, Vec<f64>), SetupError> {
     let plan = setup.plan();
     let step_s = step_s(setup)?;
-    let time_s = |case: &Case| {
-        let levels = levels(plan, setup.predicted_cycles(case));
-        let level_s = |level: &Level| {
-            level.cycles * level.steps as f64 * relative_step(plan, level.nodes) * step_s
-        };
-        levels.iter().map(level_s).sum()
-    };
+    let time_s = |case: &Case| steps_of_case(plan, setup.predicted_cycles(case)) * step_s;
     Ok((step_s, plan.cases().iter().map(time_s).collect()))
 }
 
-/// Cycles on one number of nodes in one number of steps.
-struct Level {
-    nodes: usize,
-    steps: usize,
-    cycles: f64,
-}
-
-/// The levels of a case: its own resolution, and coarser ones for the error bars, each started from the one before.
-fn levels(plan: &SweepPlan, cycles: f64) -> Vec<Level> {
-    let (nodes, steps) = (plan.solver.nodes(), plan.cycle.steps);
-    let level = |coarser_nodes, coarser_steps, cycles| Level {
-        nodes: nodes / coarser_nodes,
-        steps: steps / coarser_steps,
-        cycles,
+/// Steps of the full number of nodes that a case takes: those of its own resolution, and of coarser ones for the error bars, each started
+/// from the one before.
+fn steps_of_case(plan: &SweepPlan, cycles: f64) -> f64 {
+    let steps = |fewer_nodes: usize, fewer_steps: usize, cycles: f64| {
+        let relative = relative_step(plan, plan.solver.nodes() / fewer_nodes);
+        cycles * (plan.cycle.steps / fewer_steps) as f64 * relative
     };
     let has_bars = plan.cycle.error_bars && plan.base.contact.indenter.own_cells().is_none();
     if !has_bars && plan.cycle.accuracy.is_none() {
-        return vec![level(1, 1, cycles)];
+        return steps(1, 1, cycles);
     }
     // A search from the memory of coarser steps needs about half as many cycles.
     let again = match plan.cycle.method {
@@ -195,13 +181,11 @@ fn levels(plan: &SweepPlan, cycles: f64) -> Vec<Level> {
         EngineKind::Axisymmetric => 1,
         EngineKind::HalfSpace => 2,
     };
-    vec![
-        level(1, 1, again),
-        level(1, 2, again),
-        level(on_fewest_steps, 4, cycles),
-        level(2, 2, again),
-        level(4, 2, cycles),
-    ]
+    steps(1, 1, again)
+        + steps(1, 2, again)
+        + steps(on_fewest_steps, 4, cycles)
+        + steps(2, 2, again)
+        + steps(4, 2, cycles)
 }
 
 /// Time of a step on this many nodes, relative to one on the full number.
