@@ -36,10 +36,10 @@ enum Records {
 }
 
 impl Records {
-    fn archive(&self) -> Archive<'_> {
+    fn archive(&self) -> &dyn Archive {
         match self {
-            Self::Memory(memory) => memory.into(),
-            Self::Folder(store) => store.into(),
+            Self::Memory(memory) => memory,
+            Self::Folder(store) => store,
         }
     }
 }

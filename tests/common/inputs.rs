@@ -28,7 +28,6 @@ use contact_dma::sweep::search::run::Outcome;
 use contact_dma::sweep::store::Store;
 use contact_dma::sweep::store::entry::{self, Purpose};
 use contact_dma::sweep::store::log;
-use contact_dma::sweep::store::records::Kept;
 use sha2::{Digest, Sha256};
 use tempfile::TempDir;
 
@@ -324,16 +323,14 @@ impl Folder {
         fs::create_dir(self.path("records")).unwrap();
         fs::write(self.path("records/any.segment"), segment).unwrap();
         let (store, _) = Store::reopen_to_read(self.folder.path()).unwrap();
-        match store.records().load(Purpose::Sweep, &self.case, true) {
-            Ok(Kept::Intact(record)) => Some(Outcome {
-                records: vec![*record],
-                peaks: Vec::new(),
-                peak_problems: Vec::new(),
-                missing: 0,
-                interrupted: true,
-            }),
-            Ok(Kept::Absent | Kept::OfAnotherBuild { .. } | Kept::Unusable { .. }) | Err(_) => None,
-        }
+        let kept = store.records().load(Purpose::Sweep, &self.case, true);
+        kept.ok()?.intact().map(|record| Outcome {
+            records: vec![record],
+            peaks: Vec::new(),
+            peak_problems: Vec::new(),
+            missing: 0,
+            interrupted: true,
+        })
     }
 }
 

@@ -11,7 +11,6 @@ use contact_dma::input::sweep_file;
 use contact_dma::sweep::record::warning::Warning;
 use contact_dma::sweep::store::Store;
 use contact_dma::sweep::store::entry::Purpose;
-use contact_dma::sweep::store::records::Kept;
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -120,9 +119,8 @@ fn ten_newtons_on_a_tip_of_ten_nanometres_are_warned_of_everywhere() {
     let plan = sweep_file::plan(&Document::parse("resolved.toml", &plan).unwrap());
     let (store, _) = Store::reopen_to_read(&out).unwrap();
     let case = &plan.ok().unwrap().cases()[1];
-    let Kept::Intact(case) = store.records().load(Purpose::Sweep, case, false).unwrap() else {
-        panic!("no record");
-    };
+    let kept = store.records().load(Purpose::Sweep, case, false).unwrap();
+    let case = kept.intact().unwrap();
     let ratio = case.result.as_ref().unwrap().contact_radius_m.maximum / 1e-8;
     assert!(ratio > 300.0, "{ratio}");
     let [

@@ -103,7 +103,7 @@ impl Search<'_> {
         let aim = Aim::loss(bracket.resolution);
         let mut records = self.records_of(aim, &cases, alone, &|_| ())?;
         if records.len() < omegas.len() {
-            return Err(match (self.mode, self.archive.store) {
+            return Err(match (self.mode, self.archive.store()) {
                 (Mode::Read, Some(store)) => LocateError::NoRecords {
                     angular_frequency_rad_per_s: bracket.points[1].0,
                     folder: store.folder().display().to_string(),

@@ -9,10 +9,11 @@ mod replica_peaks;
 pub mod run;
 
 use std::collections::HashMap;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use rayon::ThreadPool;
+use rayon::prelude::*;
 
 use crate::sweep::case::checkpoint::Checkpoints;
 use crate::sweep::case::{Aim, Setup};
@@ -22,19 +23,18 @@ use crate::sweep::search::locate::curve_of;
 use crate::sweep::search::run::{Mode, Outcome, Progress};
 use crate::sweep::share::shard::{self, Shard};
 use crate::sweep::store::entry::Purpose;
-use crate::sweep::store::records::Kept;
 use crate::sweep::store::{Archive, StoreError};
 
 /// What solving more cases takes.
 pub(crate) struct Search<'a> {
     pub pool: ThreadPool,
     pub setup: &'a Setup,
-    pub archive: Archive<'a>,
+    pub archive: &'a dyn Archive,
     pub mode: Mode,
     pub interrupt: &'a AtomicBool,
     pub progress: &'a dyn Progress,
-    /// Where nothing is solved: whether it was said that records of another build are drawn.
-    told_of_builds: AtomicBool,
+    /// Where nothing is solved: whether it was reported that records of another build are drawn.
+    reported_builds: AtomicBool,
 }
 
 /// How often a neighbourhood may be halved before it is left as it is.
@@ -52,7 +52,6 @@ impl Search<'_> {
                 self.progress.cases_found(found, own.len());
             }
         })?;
-        self.archive.records.sync()?;
         let mut missing = own.len() - records.len();
         let mut interrupted = missing > 0;
         if of_shard.is_some() && !interrupted {
@@ -73,18 +72,17 @@ impl Search<'_> {
             peaks: Vec::new(),
             peak_problems: Vec::new(),
         };
-        if missing > 0 || interrupted {
-            return Ok(outcome);
+        if missing == 0 && !interrupted {
+            outcome.interrupted = !self.locate_peaks(&mut outcome)?;
+            // Where nothing is solved, another process may be at work in the folder.
+            if self.mode != Mode::Read
+                && !outcome.interrupted
+                && let Some(store) = self.archive.store()
+            {
+                store.remove_checkpoints("");
+            }
         }
-        outcome.interrupted = !self.locate_peaks(&mut outcome)?;
-        self.archive.records.sync()?;
-        // Where nothing is solved, another process may be at work in the folder.
-        if self.mode != Mode::Read
-            && !outcome.interrupted
-            && let Some(store) = self.archive.store
-        {
-            store.remove_checkpoints("");
-        }
+        self.archive.records().sync()?;
         Ok(outcome)
     }
 
@@ -119,7 +117,7 @@ impl Search<'_> {
     }
 
     /// The records of these cases, solved where there are none, by all threads or on this one alone: for what many threads do at
-    /// once. Fewer after an interruption. `found` hears how many there are already.
+    /// once. Fewer after an interruption. `found` is called with how many there are already.
     pub fn records_of(
         &self,
         aim: Aim,
@@ -141,31 +139,28 @@ impl Search<'_> {
     ) -> Result<(Vec<CaseRecord>, Vec<Case>), StoreError> {
         // Losses at peaks are nobody else's.
         if purpose == Purpose::Sweep {
-            for unread in self.archive.records.look()? {
-                let path = unread.path.display();
-                self.progress.notice(&format!("{path}: {}", unread.reason));
+            for unread in self.archive.records().look()? {
+                self.progress.notice(&unread);
             }
         }
         let then = match self.mode {
             Mode::Solve { .. } => "the case is computed again",
             Mode::Read => "the case is left out",
         };
+        let with_cycle = purpose == Purpose::Sweep && self.holds_cycles();
         let (mut records, mut lacking) = (Vec::new(), Vec::new());
         for case in cases {
-            let kept = self.load_case(purpose, case)?;
-            let refusal = kept.refusal();
-            match kept {
-                Kept::Intact(record) => records.push(*record),
-                Kept::OfAnotherBuild { record, .. } if self.mode == Mode::Read => {
-                    if let Some(refusal) = refusal
-                        && !self.told_of_builds.swap(true, Ordering::Relaxed)
-                    {
+            let kept = self.archive.records().load(purpose, case, with_cycle)?;
+            match (kept.record, kept.refusal) {
+                (Some(record), None) => records.push(*record),
+                (Some(record), Some(refusal)) if self.mode == Mode::Read => {
+                    if !self.reported_builds.swap(true, Ordering::Relaxed) {
                         let shown = "it and those like it are shown as they are";
                         self.progress.notice(&format!("{refusal}; {shown}"));
                     }
                     records.push(*record);
                 }
-                Kept::Absent | Kept::OfAnotherBuild { .. } | Kept::Unusable { .. } => {
+                (_, refusal) => {
                     if let Some(refusal) = refusal {
                         self.progress.notice(&format!("{refusal}; {then}"));
                     }
@@ -176,19 +171,13 @@ impl Search<'_> {
         Ok((records, lacking))
     }
 
-    /// What there is of a case, with its cycle where the outcome holds them.
-    fn load_case(&self, purpose: Purpose, case: &Case) -> Result<Kept, StoreError> {
-        let with_cycle = purpose == Purpose::Sweep && self.holds_cycles();
-        self.archive.records.load(purpose, case, with_cycle)
-    }
-
     /// Whether the outcome holds the cycles of all cases; of a large sweep in a folder they stay there.
     fn holds_cycles(&self) -> bool {
-        self.archive.store.is_none() || self.setup.plan().is_small()
+        self.archive.store().is_none() || self.setup.plan().is_small()
     }
 
-    /// Solves these cases in parallel, the most expensive first: each thread takes the next from a common counter, so that the
-    /// uneven cases end together.
+    /// Solves these cases in parallel, the most expensive first: each thread takes the next of them, so that the uneven cases end
+    /// together.
     fn compute(
         &self,
         aim: Aim,
@@ -205,28 +194,14 @@ impl Search<'_> {
         let mut order: Vec<&Case> = cases.iter().collect();
         let cost = |case: &Case| self.setup.predicted_cycles(case);
         order.sort_by(|a, b| cost(b).total_cmp(&cost(a)).then(a.index.cmp(&b.index)));
-        let next = AtomicUsize::new(0);
-        let stop = AtomicBool::new(false);
-        let work = || -> Result<Vec<CaseRecord>, StoreError> {
-            let mut done = Vec::new();
-            while !stop.load(Ordering::Relaxed) && !self.interrupt.load(Ordering::Relaxed) {
-                let Some(case) = order.get(next.fetch_add(1, Ordering::Relaxed)) else {
-                    break;
-                };
-                let solved = self.compute_one(aim, case, checkpoint_every);
-                match solved.inspect_err(|_| stop.store(true, Ordering::Relaxed))? {
-                    Some(record) => done.push(record),
-                    None => break,
-                }
-            }
-            Ok(done)
-        };
-        let parts = match alone {
-            true => vec![work()],
-            false => self.pool.broadcast(|_| work()),
-        };
-        let parts: Vec<_> = parts.into_iter().collect::<Result<_, _>>()?;
-        Ok(parts.into_iter().flatten().collect())
+        let solve = |case: &Case| self.compute_one(aim, case, checkpoint_every).transpose();
+        match alone {
+            true => order.into_iter().map_while(solve).collect(),
+            false => (self.pool).install(|| {
+                let next = order.into_iter().par_bridge();
+                next.map(solve).while_some().collect()
+            }),
+        }
     }
 
     /// Solves a case and stores its record; `None` where it was interrupted.
@@ -236,8 +211,11 @@ impl Search<'_> {
         case: &Case,
         every: Duration,
     ) -> Result<Option<CaseRecord>, StoreError> {
+        if self.interrupt.load(Ordering::Relaxed) {
+            return Ok(None);
+        }
         let purpose = aim.purpose();
-        let store = self.archive.store;
+        let store = self.archive.store();
         let checkpoints = store.map(|store| Checkpoints::of(store, purpose, case, every));
         let checkpoints = checkpoints.as_ref();
         let Some(record) = (self.setup).run_for(aim, checkpoints, case, self.interrupt) else {
@@ -246,7 +224,7 @@ impl Search<'_> {
         if let Some(store) = store {
             store.check_plan()?;
         }
-        self.archive.records.insert(purpose, case, &record)?;
+        self.archive.records().insert(purpose, case, &record)?;
         if let Some(checkpoints) = checkpoints {
             checkpoints.remove();
         }

@@ -27,7 +27,7 @@ pub enum RunError {
     Threads { threads: usize, reason: String },
 }
 
-/// What a sweep came to.
+/// The result of a sweep.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
     /// Finished cases, drive after drive, each in ascending frequency; where `missing` is not 0, those of this run alone.
@@ -42,7 +42,7 @@ pub struct Outcome {
     pub interrupted: bool,
 }
 
-/// Hears of progress; called from the threads that do the work.
+/// Is called with progress, from the threads that do the work.
 pub trait Progress: Sync {
     fn case_finished(&self, _record: &CaseRecord) {}
     fn locating_peaks(&self, _brackets: usize) {}
@@ -56,7 +56,7 @@ pub trait Progress: Sync {
     fn notice(&self, _what: &str) {}
 }
 
-/// Hears of nothing.
+/// Ignores it.
 impl Progress for () {}
 
 /// Which cases of a sweep are solved, and how; none of it changes its results.
@@ -93,17 +93,18 @@ impl Mode {
 ///
 /// # Errors
 /// [`RunError`]: where a record cannot be read or written (the other threads then stop too) or threads cannot be started.
-pub fn run<'a>(
+pub fn run(
     setup: &Setup,
-    archive: impl Into<Archive<'a>>,
+    archive: &dyn Archive,
     mode: Mode,
     interrupt: &AtomicBool,
     progress: &dyn Progress,
 ) -> Result<Outcome, RunError> {
-    let archive = archive.into();
     let (threads, shard) = match mode {
         Mode::Solve { threads, shard, .. } => {
-            archive.claim(shard.is_none())?;
+            if let Some(store) = archive.store() {
+                store.claim(shard.is_none())?;
+            }
             (threads, shard)
         }
         Mode::Read => (1, None),
@@ -115,7 +116,7 @@ pub fn run<'a>(
         mode,
         interrupt,
         progress,
-        told_of_builds: AtomicBool::new(false),
+        reported_builds: AtomicBool::new(false),
     };
     Ok(search.outcome(shard)?)
 }

@@ -1,4 +1,4 @@
-//! The file of a checkpoint, whatever it holds, and when one is written.
+//! The file of a checkpoint of any content, and when one is written.
 //!
 //! 32 bytes that say what it belongs to (a SHA-256), the content as postcard encodes it, and the SHA-256 of all that.
 
@@ -15,7 +15,7 @@ use sha2::{Digest, Sha256};
 use crate::sweep::store::Store;
 use crate::sweep::store::provenance::BUILD;
 
-/// Time between two writes, unless told otherwise.
+/// Default time between two writes.
 pub const EVERY: Duration = Duration::from_secs(10);
 
 /// The folder of all checkpoints.

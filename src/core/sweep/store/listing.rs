@@ -1,4 +1,4 @@
-//! What stands in a folder: files that the program has written, listed or known by their names, or files of somebody else.
+//! What a folder holds: files that the program has written, listed or known by their names, or files of others.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -39,18 +39,6 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Every kind.
-    const ALL: [Self; 8] = [
-        Self::Sweep,
-        Self::Scenario,
-        Self::Analysis,
-        Self::Identification,
-        Self::Material,
-        Self::MaterialFit,
-        Self::Comparison,
-        Self::Reproduction,
-    ];
-
     /// What messages call it.
     pub fn text(self) -> &'static str {
         match self {
@@ -63,11 +51,6 @@ impl Kind {
             Self::Comparison => "a comparison",
             Self::Reproduction => "the figures of the base paper",
         }
-    }
-
-    /// As it stands in the lock file.
-    pub(super) fn name(self) -> String {
-        format!("{self:?}")
     }
 
     /// That of a resolved file.
@@ -87,30 +70,14 @@ impl Kind {
     }
 }
 
-/// The files of a folder that the program has written.
+/// What stands in a folder.
 #[derive(Debug, Default, Clone, PartialEq)]
 pub(super) struct Listed {
     pub kind: Option<Kind>,
-    pub files: BTreeSet<String>,
-}
-
-/// What stands in a folder.
-#[derive(Debug, PartialEq)]
-pub(super) enum Found {
-    Nothing,
-    Listed(Listed),
-    /// Files of somebody else; the first of them.
-    Foreign(String),
-}
-
-impl Found {
     /// The files that the program has written.
-    pub(super) fn files(self) -> BTreeSet<String> {
-        match self {
-            Self::Listed(listed) => listed.files,
-            Self::Nothing | Self::Foreign(_) => BTreeSet::new(),
-        }
-    }
+    pub files: BTreeSet<String>,
+    /// Where it has written none: the first file of others.
+    pub foreign: Option<String>,
 }
 
 /// As far as it is read from `run.json`.
@@ -124,8 +91,8 @@ struct Run {
 /// Looks at a folder without changing anything. `resolved` is the plan of the command, where it has one.
 ///
 /// # Errors
-/// [`StoreError::Read`] with the path.
-pub(super) fn look(folder: &Path, resolved: Option<&str>) -> Result<Found, StoreError> {
+/// [`StoreError::Read`] with the path; [`StoreError::ForeignFile`] where the lock file is none.
+pub(super) fn look(folder: &Path, resolved: Option<&str>) -> Result<Listed, StoreError> {
     let failed = |source| StoreError::Read {
         path: folder.to_path_buf(),
         source,
@@ -133,18 +100,18 @@ pub(super) fn look(folder: &Path, resolved: Option<&str>) -> Result<Found, Store
     let entries = match fs::read_dir(folder) {
         // A file in the place of a folder above is met when the folder is created.
         Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
-            return Ok(Found::Nothing);
+            return Ok(Listed::default());
         }
         entries => entries.map_err(failed)?,
     };
     let name = |entry: fs::DirEntry| entry.file_name().to_string_lossy().into_owned();
-    let names: io::Result<Vec<String>> = entries.map(|entry| entry.map(name)).collect();
-    let mut names = names.map_err(failed)?;
-    names.sort();
+    let names: io::Result<BTreeSet<String>> = entries.map(|entry| entry.map(name)).collect();
+    let names = names.map_err(failed)?;
     let journal = fs::read(folder.join(LOCK)).unwrap_or_default();
     let journal = String::from_utf8_lossy(&journal);
     if !journal.trim_start().is_empty() && !journal.trim_start().starts_with(KIND_MARK) {
-        return Ok(Found::Foreign(LOCK.to_owned()));
+        let path = folder.join(LOCK);
+        return Err(StoreError::ForeignFile { path });
     }
     let mut listed = journal_of(&journal);
     let mut is_listed = !listed.files.is_empty();
@@ -160,21 +127,21 @@ pub(super) fn look(folder: &Path, resolved: Option<&str>) -> Result<Found, Store
         listed.files.extend(files.filter(|name| is_inside(name)));
     }
     if is_listed {
-        listed.files.extend(segments(folder));
-        return Ok(Found::Listed(listed));
+        // Logs are known by their content.
+        let logs = format!("{}/", records::FOLDER);
+        listed.files.extend(files_in(folder, &logs, &|name| {
+            log::is_one(&folder.join(name))
+        }));
+    } else if is_of_program || has_plan(folder, resolved) {
+        // Without a list the files are known by their names.
+        let plan = fs::read_to_string(folder.join(RESOLVED)).ok();
+        listed.kind = plan.map(|plan| Kind::of_plan(&plan)).or(listed.kind);
+        listed.files = files_in(folder, "", &files::is_result).collect();
+    } else {
+        listed.kind = None;
+        listed.foreign = names.into_iter().find(|name| !name.starts_with(PRIVATE));
     }
-    let Some(first) = names.iter().find(|name| !name.starts_with(PRIVATE)) else {
-        return Ok(Found::Nothing);
-    };
-    if !is_of_program && !has_plan(folder, resolved) {
-        return Ok(Found::Foreign(first.clone()));
-    }
-    // Without a list, which somebody has removed, the files are known by their names.
-    let plan = fs::read_to_string(folder.join(RESOLVED)).ok();
-    Ok(Found::Listed(Listed {
-        kind: plan.map(|plan| Kind::of_plan(&plan)).or(listed.kind),
-        files: named_like_results(folder),
-    }))
+    Ok(listed)
 }
 
 /// What the program has written into a folder; `None` where it has written nothing there.
@@ -182,10 +149,7 @@ pub(super) fn look(folder: &Path, resolved: Option<&str>) -> Result<Found, Store
 /// # Errors
 /// [`StoreError::Read`] with the path.
 pub fn kind_of(folder: &Path) -> Result<Option<Kind>, StoreError> {
-    Ok(match look(folder, None)? {
-        Found::Listed(listed) => listed.kind,
-        Found::Nothing | Found::Foreign(_) => None,
-    })
+    Ok(look(folder, None)?.kind)
 }
 
 /// Files that name the program: `run.json`, those of shards, and the summary.
@@ -203,7 +167,7 @@ pub(super) fn journal_of(text: &str) -> Listed {
     let mut listed = Listed::default();
     for line in text.lines() {
         match line.strip_prefix(KIND_MARK) {
-            Some(name) => listed.kind = Kind::ALL.into_iter().find(|kind| kind.name() == name),
+            Some(kind) => listed.kind = serde_json::from_str(kind).ok(),
             None if is_inside(line) => drop(listed.files.insert(line.to_owned())),
             None => {}
         }
@@ -215,22 +179,6 @@ pub(super) fn journal_of(text: &str) -> Listed {
 fn is_inside(name: &str) -> bool {
     let mut parts = Path::new(name).components();
     !name.is_empty() && parts.all(|part| matches!(part, Component::Normal(_)))
-}
-
-/// Files of records are known by their content.
-fn segments(folder: &Path) -> Vec<String> {
-    let Ok(entries) = fs::read_dir(folder.join(records::FOLDER)) else {
-        return Vec::new();
-    };
-    let paths = entries.flatten().map(|entry| entry.path());
-    let is_segment = |path: &PathBuf| {
-        path.extension().is_some_and(|ending| ending == log::ENDING) && log::is_one(path)
-    };
-    let name = |path: PathBuf| {
-        let name = path.file_name()?.to_str()?;
-        Some(format!("{}/{name}", records::FOLDER))
-    };
-    paths.filter(is_segment).filter_map(name).collect()
 }
 
 /// Whether the folder, which has no list, holds a plan of the program: that of this command, or one of which there are records.
@@ -246,15 +194,17 @@ pub(super) fn has_records(folder: &Path, resolved: &str) -> bool {
     !Records::in_folder(folder, &hash(resolved), false).is_empty()
 }
 
-/// The files in a folder that have names of results, whoever wrote them.
-pub(super) fn named_like_results(folder: &Path) -> BTreeSet<String> {
+/// The files of these names in a folder and in those within it that results have, whoever wrote them; `below` this name in it.
+pub(super) fn files_in(
+    folder: &Path,
+    below: &str,
+    is_named: &dyn Fn(&str) -> bool,
+) -> impl Iterator<Item = String> {
     let mut found = BTreeSet::new();
-    let mut folders = vec![String::new()];
+    let mut folders = vec![below.to_owned()];
     while let Some(below) = folders.pop() {
-        let Ok(entries) = fs::read_dir(folder.join(&below)) else {
-            continue;
-        };
-        for entry in entries.flatten() {
+        let entries = fs::read_dir(folder.join(&below));
+        for entry in entries.into_iter().flatten().flatten() {
             let Ok(name) = entry.file_name().into_string() else {
                 continue;
             };
@@ -262,12 +212,12 @@ pub(super) fn named_like_results(folder: &Path) -> BTreeSet<String> {
             let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
             if is_folder && files::is_folder_of_results(&name) {
                 folders.push(format!("{name}/"));
-            } else if !is_folder && files::is_result(&name) {
+            } else if !is_folder && is_named(&name) {
                 found.insert(name);
             }
         }
     }
-    found
+    found.into_iter()
 }
 
 /// The names that a file has as one of this folder, where it lies there.

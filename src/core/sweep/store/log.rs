@@ -5,7 +5,7 @@
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, BufRead, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -26,7 +26,7 @@ const CHUNK: usize = 1 << 20;
 /// A file open for appending, which no other process appends to.
 #[derive(Debug)]
 pub struct LogWriter {
-    path: PathBuf,
+    path: Arc<Path>,
     length: u64,
     disk: Arc<Disk>,
 }
@@ -90,7 +90,7 @@ impl LogWriter {
 
     fn new(path: &Path, file: File) -> Self {
         Self {
-            path: path.to_path_buf(),
+            path: path.into(),
             length: 0,
             disk: Arc::new(Disk {
                 file,
@@ -100,7 +100,7 @@ impl LogWriter {
     }
 
     /// The file.
-    pub fn path(&self) -> &Path {
+    pub fn path(&self) -> &Arc<Path> {
         &self.path
     }
 

@@ -1,7 +1,7 @@
 //! Which files of a folder the program has written: these alone it replaces or removes.
 //!
 //! `run.json` lists them when a command has ended. Until then each name is appended to the lock file before the file takes it, so that
-//! a killed process leaves no file that is not listed. A folder that is not empty and has no list is somebody else's: it is
+//! a killed process leaves no file that is not listed. A folder that is not empty and has no list belongs to others: it is
 //! refused, or, where that is forced, files are added to it, and none of its own is touched. Folders of versions that
 //! wrote no list are known by their summary, or by records of their plan, and their files by their names.
 
@@ -14,9 +14,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use serde::Serialize;
 
 use super::folder_lock::{FolderLock, LOCK, LOCKS, Others};
-use super::listing::{
-    Found, KIND_MARK, Listed, PROGRAM, journal_of, look, named_like_results, names_in,
-};
+use super::listing::{KIND_MARK, Listed, PROGRAM, files_in, journal_of, look, names_in};
 pub use super::listing::{Kind, RUN, kind_of};
 use super::{RESOLVED, StoreError, TEMPORARY, files, provenance};
 
@@ -25,7 +23,7 @@ use super::{RESOLVED, StoreError, TEMPORARY, files, provenance};
 pub struct Target<'a> {
     pub folder: &'a Path,
     pub kind: Kind,
-    /// Whether another result is replaced, and files are added to a folder that is somebody else's.
+    /// Whether another result is replaced, and files are added to a folder with files of others.
     pub force: bool,
     /// The files that the command reads, of which none is written over.
     pub reads: &'a [PathBuf],
@@ -37,117 +35,97 @@ impl Target<'_> {
     /// # Errors
     /// [`StoreError`] why not.
     pub fn check(&self) -> Result<(), StoreError> {
-        self.look(None).map(drop)
+        self.look(None, &|_| false).map(drop)
     }
 
-    /// What the folder holds, where the command may write into it.
-    pub(super) fn look(&self, resolved: Option<&str>) -> Result<Listed, StoreError> {
-        let path = self.folder.to_path_buf();
-        let whole = |read: &&PathBuf| {
-            read.is_dir() && names_in(self.folder, read).iter().any(String::is_empty)
-        };
-        if let Some(read) = self.reads.iter().find(whole) {
-            let (read, written) = (read.clone(), path);
-            return Err(StoreError::ReplacesInput { read, written });
-        }
-        match look(self.folder, resolved)? {
-            Found::Nothing => Ok(Listed::default()),
-            Found::Foreign(file) if !self.force => Err(StoreError::Foreign { path, file }),
-            Found::Foreign(file) => match self.obstacle(file) {
-                Some(path) => Err(StoreError::ForeignFile { path }),
-                None => Ok(Listed::default()),
-            },
-            Found::Listed(listed) => match listed.kind {
-                Some(holds) if !holds.shares_a_folder_with(self.kind) && !self.force => {
-                    let writes = self.kind;
-                    Err(StoreError::OtherKind {
-                        path,
-                        holds,
-                        writes,
-                    })
-                }
-                _ => Ok(listed),
-            },
-        }
-    }
-
-    /// A file of a folder of somebody else, of which this is the first file, that is in the way whatever the command comes to.
-    fn obstacle(&self, first: String) -> Option<PathBuf> {
-        let file = match self.has_plan() {
-            _ if first == LOCK => Some(first),
-            true => named_like_results(self.folder).pop_first(),
-            false => None,
-        };
-        Some(self.folder.join(file?))
-    }
-
-    /// Of a sweep or scenario not all names are known before the computation: any that it may use is an obstacle.
-    fn has_plan(&self) -> bool {
-        self.kind.shares_a_folder_with(Kind::Sweep)
-    }
-
-    /// Whether one of these files would replace one that the command reads.
-    fn check_reads(
+    /// What the folder holds, and the names in it of what is read, where the command may write files of these names into it.
+    /// `resolved`: the plan of a sweep or scenario, which may be what it reads.
+    pub(super) fn look(
         &self,
-        is_written: impl Fn(&str) -> bool,
-    ) -> Result<BTreeSet<String>, StoreError> {
-        let mut names = BTreeSet::new();
+        resolved: Option<&str>,
+        is_written: &dyn Fn(&str) -> bool,
+    ) -> Result<(Listed, BTreeSet<String>), StoreError> {
+        let path = self.folder.to_path_buf();
+        let mut listed = look(self.folder, resolved)?;
+        let mut reads = BTreeSet::new();
         for read in self.reads {
             for name in names_in(self.folder, read) {
-                if is_written(&name) {
-                    return Err(StoreError::ReplacesInput {
-                        read: read.clone(),
-                        written: self.folder.join(name),
-                    });
-                }
-                names.insert(name);
+                let is_own_plan =
+                    resolved.is_some() && name == RESOLVED && listed.files.contains(RESOLVED);
+                let written = match &*name {
+                    "" if read.is_dir() => path,
+                    name if is_written(name) && !is_own_plan => path.join(name),
+                    _ => {
+                        reads.insert(name);
+                        continue;
+                    }
+                };
+                let read = read.clone();
+                return Err(StoreError::ReplacesInput { read, written });
             }
         }
-        Ok(names)
+        let foreign = listed.foreign.take();
+        match (&foreign, listed.kind) {
+            (Some(file), _) if !self.force => {
+                let file = file.clone();
+                return Err(StoreError::Foreign { path, file });
+            }
+            (_, Some(holds)) if !holds.shares_a_folder_with(self.kind) && !self.force => {
+                let writes = self.kind;
+                return Err(StoreError::OtherKind {
+                    path,
+                    holds,
+                    writes,
+                });
+            }
+            _ => {}
+        }
+        // A sweep or scenario uses some of the names that it may use. In its own folder files with the other names are no obstacle.
+        if foreign.is_some() || resolved.is_none() {
+            let mut obstacles = files_in(self.folder, "", is_written);
+            if let Some(name) = obstacles.find(|name| !listed.files.contains(name)) {
+                let path = path.join(name);
+                return Err(StoreError::ForeignFile { path });
+            }
+        }
+        Ok((listed, reads))
     }
 
-    /// As [`Self::check`], of a sweep or scenario, whose own plan may be what it reads. What the folder holds, and the names in it
-    /// of what is read.
-    pub(super) fn check_plan(
+    /// Locks the folder, which is created where needed, and makes its list; who else is at work there, and whether it holds results of
+    /// another kind. What is refused is refused before anything is written.
+    pub(super) fn take(
         &self,
-        resolved: &str,
-    ) -> Result<(Listed, BTreeSet<String>), StoreError> {
-        let has_own_plan = look(self.folder, Some(resolved))?
-            .files()
-            .contains(RESOLVED);
-        let reads =
-            self.check_reads(|name| files::is_result(name) && !(name == RESOLVED && has_own_plan))?;
-        Ok((self.look(Some(resolved))?, reads))
+        resolved: Option<&str>,
+        is_written: &dyn Fn(&str) -> bool,
+    ) -> Result<(Manifest, Others, bool), StoreError> {
+        self.look(resolved, is_written)?;
+        super::create_folder(self.folder)?;
+        let lock = FolderLock::of(self.folder);
+        let others = lock.try_exclusive();
+        let (found, reads) = self.look(resolved, is_written)?;
+        let is_other_kind = found.kind.is_some_and(|kind| kind != self.kind);
+        let manifest = Manifest {
+            reads,
+            ..Manifest::new(self.folder, self.kind, lock, found.files)
+        };
+        if others == Others::Absent {
+            manifest.remove_temporaries();
+        }
+        Ok((manifest, others, is_other_kind))
     }
 
     /// Fills the folder with these files, by their names, and removes those that an earlier run of the kind has left beyond them.
     ///
     /// # Errors
-    /// [`StoreError`]. What is refused is refused before anything is written.
+    /// [`StoreError`].
     pub fn write(&self, written: Vec<(String, Vec<u8>)>) -> Result<(), StoreError> {
         let is_written = |name: &str| name == RUN || written.iter().any(|(own, _)| own == name);
-        let reads = self.check_reads(is_written)?;
-        let foreign = |listed: &Listed| {
-            let names = written.iter().map(|(name, _)| &name[..]).chain([RUN]);
-            let mut names = names.filter(|name| !listed.files.contains(*name));
-            let file = names.find(|name| self.folder.join(name).symlink_metadata().is_ok());
-            match file.map(|name| self.folder.join(name)) {
-                Some(path) => Err(StoreError::ForeignFile { path }),
-                None => Ok(()),
-            }
-        };
-        foreign(&self.look(None)?)?;
-        super::create_folder(self.folder)?;
-        let lock = FolderLock::of(self.folder);
-        if lock.try_exclusive() == Others::AtWork {
+        let (manifest, others, is_other_kind) = self.take(None, &is_written)?;
+        if others == Others::AtWork {
             return Err(super::in_use(self.folder));
         }
-        let found = self.look(None)?;
-        let is_other = found.kind.is_some_and(|kind| kind != self.kind);
-        let manifest = Manifest::new(self.folder, self.kind, lock, found.files).reading(reads);
-        manifest.remove_temporaries();
         manifest.begin()?;
-        if is_other {
+        if is_other_kind {
             manifest.clear()?;
         }
         for (name, bytes) in &written {
@@ -155,29 +133,21 @@ impl Target<'_> {
             super::write_atomically(&self.folder.join(name), bytes)?;
         }
         manifest.remove_stale()?;
-        manifest.close(RUN, |files| {
-            let run = Signed {
-                program: PROGRAM,
-                program_version: super::VERSION,
-                build: provenance::BUILD,
-                commit: provenance::COMMIT,
-                kind: self.kind,
-                files,
-            };
-            let bytes = provenance::json(&self.folder.join(RUN), &run)?;
-            super::write_atomically(&self.folder.join(RUN), &bytes)
-        })
+        manifest.sign(RUN, None::<&()>)
     }
 }
 
-/// The `run.json` of a command that computes no cases.
+/// `run.json`, with what a command that computes cases has to say besides.
 #[derive(Serialize)]
-struct Signed<'a> {
+struct Signed<'a, T> {
     program: &'a str,
     program_version: &'a str,
     build: &'a str,
     commit: Option<&'a str>,
+    #[serde(flatten)]
+    more: Option<&'a T>,
     kind: Kind,
+    /// Every file of the folder that the program has written.
     files: &'a BTreeSet<String>,
 }
 
@@ -219,24 +189,16 @@ impl Manifest {
         }
     }
 
-    /// The same, where these files of the folder are read, and stay.
-    pub(super) fn reading(self, reads: BTreeSet<String>) -> Self {
-        Self { reads, ..self }
-    }
-
-    /// What the folder holds.
-    pub(super) fn kind(&self) -> Kind {
-        self.kind
-    }
-
     fn state(&self) -> MutexGuard<'_, State> {
         // A name that was inserted is listed, whatever came after.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// The kind stands before all names: another process may have emptied the file.
     fn append(&self, names: &[&str]) -> Result<(), StoreError> {
-        // Whatever the end of the file, which a killed process may have left within a name.
-        let text = format!("\n{}\n", names.join("\n"));
+        let kind = serde_json::to_string(&self.kind).unwrap_or_default();
+        // A killed process may have left the end of the file within a name.
+        let text = format!("\n{KIND_MARK}{kind}\n{}\n", names.join("\n"));
         self.lock.append(&text).map_err(|source| StoreError::Write {
             path: self.folder.join(LOCK),
             source,
@@ -249,14 +211,10 @@ impl Manifest {
     /// [`StoreError::Write`] with the path.
     pub(super) fn begin(&self) -> Result<(), StoreError> {
         let journal = journal_of(&self.lock.content());
-        let kind = format!("{KIND_MARK}{}", self.kind.name());
         let state = self.state();
-        let mut names: Vec<&str> = match journal.kind == Some(self.kind) {
-            true => Vec::new(),
-            false => vec![&kind],
-        };
-        names.extend(state.listed.difference(&journal.files).map(String::as_str));
-        match names.is_empty() {
+        let names = state.listed.difference(&journal.files).map(String::as_str);
+        let names: Vec<&str> = names.collect();
+        match names.is_empty() && journal.kind == Some(self.kind) {
             true => Ok(()),
             false => self.append(&names),
         }
@@ -286,9 +244,7 @@ impl Manifest {
     }
 
     fn look_again(&self, state: &mut State) -> Result<(), StoreError> {
-        if let Found::Listed(listed) = look(&self.folder, None)? {
-            state.listed.extend(listed.files);
-        }
+        state.listed.extend(look(&self.folder, None)?.files);
         Ok(())
     }
 
@@ -344,7 +300,7 @@ impl Manifest {
             folders.extend(Path::new(name).ancestors().skip(1));
         }
         folders.remove(Path::new(""));
-        // Those within others first; what holds a file of somebody else stays.
+        // Inner folders first; a folder that holds a file of others stays.
         for folder in folders.iter().rev() {
             let _ = fs::remove_dir(self.folder.join(folder));
         }
@@ -372,20 +328,16 @@ impl Manifest {
         }
     }
 
-    /// Writes the list into the file of this name, by a function of all files that are there, and empties the lock file where nobody
-    /// else is at work.
+    /// Writes the list of all files that are there into the file of this name, with `more` beside it, and empties the lock file where
+    /// nobody else is at work.
     ///
     /// # Errors
-    /// [`StoreError`] of the function.
-    pub(super) fn close(
-        &self,
-        name: &str,
-        write: impl FnOnce(&BTreeSet<String>) -> Result<(), StoreError>,
-    ) -> Result<(), StoreError> {
+    /// [`StoreError`] with the path.
+    pub(super) fn sign(&self, name: &str, more: Option<&impl Serialize>) -> Result<(), StoreError> {
         self.record(name)?;
         let is_alone = self.lock.try_exclusive() == Others::Absent;
         if !is_alone {
-            // What was asked for in vain took the shared lock away. Without it another process may find itself alone, empty the
+            // The failed attempt has released the shared lock. Without it another process may find itself alone, empty the
             // lock file, and have its list replaced by one that was made before.
             self.lock.share();
         }
@@ -395,7 +347,24 @@ impl Manifest {
         let known = state.listed.iter().map(String::as_str).chain(LOCKS);
         let files: BTreeSet<String> = known.filter(is_there).map(str::to_owned).collect();
         drop(state);
-        let written = write(&files);
+        let run = Signed {
+            program: PROGRAM,
+            program_version: super::VERSION,
+            build: provenance::BUILD,
+            commit: provenance::COMMIT,
+            more,
+            kind: self.kind,
+            files: &files,
+        };
+        let path = self.folder.join(name);
+        let bytes = serde_json::to_vec_pretty(&run).map(|bytes| [&bytes[..], b"\n"].concat());
+        let written = match bytes {
+            Ok(bytes) => super::write_atomically(&path, &bytes),
+            Err(error) => Err(StoreError::Encode {
+                path,
+                reason: error.to_string(),
+            }),
+        };
         if is_alone && written.is_ok() {
             self.lock.empty();
         }

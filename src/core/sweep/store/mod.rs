@@ -1,4 +1,4 @@
-//! The folder of a sweep: which sweep it belongs to, and every file written whole or not at all.
+//! The folder of a sweep: which sweep it belongs to, and files that are written atomically.
 //!
 //! A folder has one plan, its `resolved.toml`. Of several processes that begin at once one publishes it; shards of the same
 //! sweep compute beside one another, and any other is refused. Whoever works in the folder shares its lock, and only the one that
@@ -51,34 +51,28 @@ pub struct Store {
 }
 
 /// Where the records of a sweep are: in its folder, or in memory.
-#[derive(Debug, Clone, Copy)]
-pub struct Archive<'a> {
-    pub records: &'a Records,
-    pub store: Option<&'a Store>,
-}
+pub trait Archive: Sync {
+    fn records(&self) -> &Records;
 
-impl Archive<'_> {
-    /// As [`Store::claim`]; nobody else has records in memory.
-    pub(crate) fn claim(self, alone: bool) -> Result<(), StoreError> {
-        self.store.map_or(Ok(()), |store| store.claim(alone))
+    /// The folder; `None` in memory.
+    fn store(&self) -> Option<&Store> {
+        None
     }
 }
 
-impl<'a> From<&'a Store> for Archive<'a> {
-    fn from(store: &'a Store) -> Self {
-        Self {
-            records: &store.records,
-            store: Some(store),
-        }
+impl Archive for Records {
+    fn records(&self) -> &Records {
+        self
     }
 }
 
-impl<'a> From<&'a Records> for Archive<'a> {
-    fn from(records: &'a Records) -> Self {
-        Self {
-            records,
-            store: None,
-        }
+impl Archive for Store {
+    fn records(&self) -> &Records {
+        &self.records
+    }
+
+    fn store(&self) -> Option<&Store> {
+        Some(self)
     }
 }
 
@@ -103,7 +97,7 @@ impl Store {
     /// # Errors
     /// [`StoreError::OtherSweep`] where the folder holds another sweep's results and `force` is not given,
     /// [`StoreError::InUse`] where it is given and another process is at work there; [`StoreError::Foreign`] where the folder
-    /// is somebody else's.
+    /// holds files of others.
     pub fn open(folder: &Path, resolved: &str, force: bool) -> Result<Self, StoreError> {
         Self::open_reading(folder, resolved, force, &[])
     }
@@ -124,19 +118,8 @@ impl Store {
             force,
             reads,
         };
-        // Before anything is created.
-        target.check_plan(resolved)?;
-        create_folder(folder)?;
-        let lock = FolderLock::of(folder);
-        let others = lock.try_exclusive();
-        let (found, reads) = target.check_plan(resolved)?;
-        let is_other_kind = found.kind.is_some_and(|kind| kind != target.kind);
-        let manifest = Manifest::new(folder, target.kind, lock, found.files).reading(reads);
-        let mut store = Self::of(folder, resolved, manifest);
-        store.records = Arc::new(Records::in_folder(folder, &store.sweep_hash, force));
-        if others == Others::Absent {
-            store.manifest.remove_temporaries();
-        }
+        let (manifest, others, is_other_kind) = target.take(Some(resolved), &files::is_result)?;
+        let store = Self::of(folder, resolved, manifest, force);
         if force {
             if others == Others::AtWork {
                 return Err(in_use(folder));
@@ -146,7 +129,7 @@ impl Store {
         store.manifest.lock.share();
         if others == Others::AtWork {
             // A command that has filled the folder meanwhile.
-            target.look(Some(resolved))?;
+            target.look(Some(resolved), &files::is_result)?;
         }
         store.publish(resolved)?;
         Ok(store)
@@ -163,13 +146,13 @@ impl Store {
         let is_alone = lock.try_exclusive() == Others::Absent;
         let resolved = read_plan(folder)?;
         let listed = listing::look(folder, Some(&resolved))?;
-        let manifest = Manifest::new(folder, Kind::of_plan(&resolved), lock, listed.files());
+        let manifest = Manifest::new(folder, Kind::of_plan(&resolved), lock, listed.files);
         if is_alone {
             manifest.remove_temporaries();
         }
         manifest.lock.share();
         manifest.begin()?;
-        Ok((Self::of(folder, &resolved, manifest), resolved))
+        Ok((Self::of(folder, &resolved, manifest, false), resolved))
     }
 
     /// As [`Store::reopen`], where nothing is to be written into the folder.
@@ -180,14 +163,14 @@ impl Store {
         let resolved = read_plan(folder)?;
         let (kind, lock) = (Kind::of_plan(&resolved), FolderLock::none());
         let manifest = Manifest::new(folder, kind, lock, BTreeSet::new());
-        Ok((Self::of(folder, &resolved, manifest), resolved))
+        Ok((Self::of(folder, &resolved, manifest, false), resolved))
     }
 
-    fn of(folder: &Path, resolved: &str, manifest: Manifest) -> Self {
+    fn of(folder: &Path, resolved: &str, manifest: Manifest, force: bool) -> Self {
         let sweep_hash = hash(resolved);
         Self {
             folder: folder.to_path_buf(),
-            records: Arc::new(Records::in_folder(folder, &sweep_hash, false)),
+            records: Arc::new(Records::in_folder(folder, &sweep_hash, force)),
             claim: Arc::default(),
             sweep_hash,
             checked: Arc::default(),
@@ -198,9 +181,7 @@ impl Store {
     /// Replaces another sweep's plan and results, where there are any.
     fn replace(&self, resolved: &str, is_other_kind: bool) -> Result<(), StoreError> {
         let is_other = match self.plan()? {
-            Some(existing) => {
-                !is_same(&existing, resolved) && !self.is_damaged(&existing, resolved)
-            }
+            Some(existing) => !self.is_own(&existing, resolved),
             None => is_other_kind,
         };
         if is_other {
@@ -223,10 +204,12 @@ impl Store {
         }
     }
 
-    /// Whether a plan is none, but was that of this sweep, of which there are records.
-    fn is_damaged(&self, existing: &str, resolved: &str) -> bool {
-        listing::has_records(&self.folder, resolved)
-            && !listing::has_records(&self.folder, existing)
+    /// Whether a plan is that of this sweep, with whatever figures and places of data, or was until it was damaged: it has no records,
+    /// and this sweep has.
+    fn is_own(&self, existing: &str, resolved: &str) -> bool {
+        let has_records = |plan: &str| listing::has_records(&self.folder, plan);
+        let is_same = identity(existing) == identity(resolved);
+        is_same || has_records(resolved) && !has_records(existing)
     }
 
     /// Makes this sweep the plan of the folder, unless it is, or another one is.
@@ -238,27 +221,22 @@ impl Store {
             create_atomically(&path, resolved.as_bytes())?;
         }
         let existing = self.plan()?.unwrap_or_default();
-        if !is_same(&existing, resolved) {
-            let lock = &self.manifest.lock;
-            lock.release();
-            let at_work = lock.try_exclusive() == Others::AtWork;
-            if at_work || !self.is_damaged(&existing, resolved) {
-                let (existing, resolved) = (identity(&existing), identity(resolved));
-                return Err(StoreError::OtherSweep {
-                    path: self.folder.clone(),
-                    at_work,
-                    difference: difference::lines(&existing, &resolved, LINES_SHOWN),
-                });
-            }
-            write_atomically(&path, resolved.as_bytes())?;
-            lock.share();
+        if !self.is_own(&existing, resolved) {
+            self.manifest.lock.release();
+            let at_work = self.manifest.lock.try_exclusive() == Others::AtWork;
+            let (existing, resolved) = (identity(&existing), identity(resolved));
+            return Err(StoreError::OtherSweep {
+                path: self.folder.clone(),
+                at_work,
+                difference: difference::lines(&existing, &resolved, LINES_SHOWN),
+            });
         }
         self.manifest.begin()?;
-        match existing == resolved {
-            true => Ok(()),
-            // The same sweep, whose figures are to look otherwise or whose data lie elsewhere.
-            false => self.write(RESOLVED, resolved.as_bytes()),
+        if existing != resolved {
+            self.manifest.record(RESOLVED)?;
+            write_atomically(&path, resolved.as_bytes())?;
         }
+        Ok(())
     }
 
     /// The folder.
@@ -275,7 +253,7 @@ impl Store {
     ///
     /// # Errors
     /// [`StoreError::Computed`] where another process has it.
-    fn claim(&self, alone: bool) -> Result<(), StoreError> {
+    pub(crate) fn claim(&self, alone: bool) -> Result<(), StoreError> {
         if self.claim.get().is_some() {
             return Ok(());
         }
@@ -298,7 +276,7 @@ impl Store {
         &self.sweep_hash
     }
 
-    /// Writes a file of the folder whole or not at all: into a temporary file beside it, which then takes its name.
+    /// Writes a file of the folder atomically: into a temporary file beside it, which is then renamed.
     ///
     /// # Errors
     /// [`StoreError::Write`] with the path; [`StoreError::TakenOver`] where the folder is of another sweep by now.
@@ -364,7 +342,7 @@ impl Store {
     }
 }
 
-/// A name with `/` between its parts, whatever the system.
+/// A name with `/` between its parts on every system.
 fn name_of(name: &Path) -> String {
     let parts = name.iter().map(|part| part.to_string_lossy());
     parts.collect::<Vec<_>>().join("/")
@@ -382,11 +360,6 @@ fn in_use(folder: &Path) -> StoreError {
     }
 }
 
-/// Whether a folder's resolved file is of the same sweep, however its figures look and wherever its data lie.
-fn is_same(existing: &str, resolved: &str) -> bool {
-    identity(existing) == identity(resolved)
-}
-
 /// The resolved sweep of a folder.
 fn read_plan(folder: &Path) -> Result<String, StoreError> {
     let path = folder.join(RESOLVED);
@@ -399,7 +372,7 @@ fn read_plan(folder: &Path) -> Result<String, StoreError> {
     })
 }
 
-/// Writes a file whole or not at all, creating its folder where needed. The umask decides its permissions.
+/// Writes a file atomically and creates its folder where needed. The umask decides its permissions.
 ///
 /// # Errors
 /// [`StoreError`] with the path.

@@ -1,15 +1,13 @@
 //! `run.json`: where and how the numbers in a folder came about. Times are here and nowhere else, so that every other file
 //! can be compared bit for bit.
 
-use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use serde::Serialize;
 
 use crate::engine::SolverPlan;
-use crate::sweep::store::listing::{Kind, PROGRAM, RUN};
+use crate::sweep::store::listing::RUN;
 use crate::sweep::store::{Store, StoreError};
 
 /// What the numbers of this program come from: the SHA-256 of its sources as far as they make numbers; see `build.rs`. Records
@@ -43,25 +41,14 @@ pub struct Circumstances {
     pub interrupted: bool,
 }
 
-/// How the numbers were computed.
-#[derive(Debug, Clone, Copy, Serialize)]
-struct Computation {
+#[derive(Serialize)]
+struct Run<'a> {
+    sweep_hash: &'a str,
     engine: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     cycle_tolerance: Option<f64>,
     /// `None`: for every case what its loss asks for.
     solver_tolerance: Option<f64>,
-}
-
-#[derive(Serialize)]
-struct Run<'a> {
-    program: &'a str,
-    program_version: &'a str,
-    build: &'a str,
-    commit: Option<&'a str>,
-    sweep_hash: &'a str,
-    #[serde(flatten)]
-    computation: Computation,
     #[serde(flatten)]
     circumstances: &'a Circumstances,
     host: Option<String>,
@@ -71,9 +58,6 @@ struct Run<'a> {
     finished: String,
     wall_time_s: f64,
     cpu_time_s: Option<f64>,
-    kind: Kind,
-    /// Every file of the folder that the program has written.
-    files: &'a BTreeSet<String>,
 }
 
 impl Stopwatch {
@@ -96,47 +80,27 @@ impl Stopwatch {
         cycle_tolerance: Option<f64>,
         circumstances: &Circumstances,
     ) -> Result<(), StoreError> {
-        let computation = Computation {
-            engine: solver.engine.name(),
-            cycle_tolerance,
-            solver_tolerance: solver.tolerance,
-        };
         let name = match &circumstances.shard {
             Some(shard) => format!("run-{}.json", shard.replace('/', "-of-")),
             None => RUN.to_owned(),
         };
-        store.manifest.close(&name, |files| {
-            let run = Run {
-                program: PROGRAM,
-                program_version: env!("CARGO_PKG_VERSION"),
-                build: BUILD,
-                commit: COMMIT,
-                sweep_hash: store.sweep_hash(),
-                computation,
-                circumstances,
-                host: host(),
-                processors: std::thread::available_parallelism().ok().map(usize::from),
-                processor: processor(),
-                started: utc(self.started),
-                finished: utc(SystemTime::now()),
-                wall_time_s: self.clock.elapsed().as_secs_f64(),
-                cpu_time_s: cpu_time_s(),
-                kind: store.manifest.kind(),
-                files,
-            };
-            store.write(&name, &json(&store.folder().join(&name), &run)?)
-        })
+        let run = Run {
+            sweep_hash: store.sweep_hash(),
+            engine: solver.engine.name(),
+            cycle_tolerance,
+            solver_tolerance: solver.tolerance,
+            circumstances,
+            host: host(),
+            processors: std::thread::available_parallelism().ok().map(usize::from),
+            processor: processor(),
+            started: utc(self.started),
+            finished: utc(SystemTime::now()),
+            wall_time_s: self.clock.elapsed().as_secs_f64(),
+            cpu_time_s: cpu_time_s(),
+        };
+        store.check_plan()?;
+        store.manifest.sign(&name, Some(&run))
     }
-}
-
-/// A value as the content of this file.
-pub(super) fn json(path: &Path, value: &impl Serialize) -> Result<Vec<u8>, StoreError> {
-    let mut bytes = serde_json::to_vec_pretty(value).map_err(|error| StoreError::Encode {
-        path: path.to_path_buf(),
-        reason: error.to_string(),
-    })?;
-    bytes.push(b'\n');
-    Ok(bytes)
 }
 
 /// The name of this machine, where the system tells it as Linux does.
