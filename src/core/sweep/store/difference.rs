@@ -1,21 +1,18 @@
 //! What differs between two resolved sweeps, line by line.
 
-/// Pairs of lines beyond which the longest common subsequence is not sought, and lines are paired by their place instead.
-const MOST_PAIRS: usize = 4_000_000;
+use std::cmp::Reverse;
+use std::collections::HashMap;
 
 /// Lines of `old` that are not in `new` behind `-`, and lines of `new` that are not in `old` behind `+`; after `most` lines
 /// the rest is counted.
 pub fn lines(old: &str, new: &str, most: usize) -> String {
-    let (old, new): (Vec<&str>, Vec<&str>) = (old.lines().collect(), new.lines().collect());
-    let same = |(a, b): &(&&str, &&str)| a == b;
-    let head = old.iter().zip(&new).take_while(same).count();
-    let tails = old[head..].iter().rev().zip(new[head..].iter().rev());
-    let tail = tails.take_while(same).count();
-    let changed = changes(&old[head..old.len() - tail], &new[head..new.len() - tail]);
-    let mut text: String = changed
-        .iter()
-        .take(most)
-        .map(|(sign, line)| format!("  {sign} {line}\n"))
+    let removed = beyond(old, new).map(|(place, line)| (place, Reverse('-'), line));
+    let added = beyond(new, old).map(|(place, line)| (place, Reverse('+'), line));
+    let mut changed: Vec<_> = removed.chain(added).collect();
+    changed.sort_unstable();
+    let shown = changed.iter().take(most);
+    let mut text: String = shown
+        .map(|(_, Reverse(sign), line)| format!("  {sign} {line}\n"))
         .collect();
     if changed.len() > most {
         let more = changed.len() - most;
@@ -24,36 +21,30 @@ pub fn lines(old: &str, new: &str, most: usize) -> String {
     text
 }
 
-fn changes<'a>(old: &[&'a str], new: &[&'a str]) -> Vec<(char, &'a str)> {
-    let (rows, columns) = (old.len(), new.len());
-    if rows.saturating_mul(columns) > MOST_PAIRS {
-        let removed = old.iter().map(|line| ('-', *line));
-        return removed.chain(new.iter().map(|line| ('+', *line))).collect();
+/// The lines of a text that another one has not, or not as often, and where they stand.
+fn beyond<'a>(text: &'a str, other: &'a str) -> impl Iterator<Item = (usize, &'a str)> {
+    let mut left: HashMap<_, usize> = HashMap::new();
+    for line in in_tables(other) {
+        *left.entry(line).or_default() += 1;
     }
-    // Lengths of the longest common subsequence of the ends from (i, j) on.
-    let mut common = vec![vec![0_u32; columns + 1]; rows + 1];
-    for i in (0..rows).rev() {
-        for j in (0..columns).rev() {
-            common[i][j] = if old[i] == new[j] {
-                common[i + 1][j + 1] + 1
-            } else {
-                common[i + 1][j].max(common[i][j + 1])
-            };
+    let lines = in_tables(text).enumerate();
+    lines.filter_map(move |(place, line)| match left.get_mut(&line) {
+        Some(left) if *left > 0 => {
+            *left -= 1;
+            None
         }
-    }
-    let (mut i, mut j, mut found) = (0, 0, Vec::new());
-    while i < rows || j < columns {
-        if i < rows && j < columns && old[i] == new[j] {
-            (i, j) = (i + 1, j + 1);
-        } else if j == columns || (i < rows && common[i + 1][j] >= common[i][j + 1]) {
-            found.push(('-', old[i]));
-            i += 1;
-        } else {
-            found.push(('+', new[j]));
-            j += 1;
+        _ => Some((place, line.1)),
+    })
+}
+
+/// Every line behind the header of its table: the same line of another table is another one.
+fn in_tables(text: &str) -> impl Iterator<Item = (&str, &str)> {
+    text.lines().scan("", |table, line| {
+        if line.starts_with('[') {
+            *table = line;
         }
-    }
-    found
+        Some((*table, line))
+    })
 }
 
 #[cfg(test)]
@@ -66,6 +57,8 @@ mod tests {
         assert_eq!(lines("a\nb\nc\n", "a\nc\nd\n", 9), "  - b\n  + d\n");
         assert_eq!(lines("a\n", "a\n", 9), "");
         assert_eq!(lines("", "a\n", 9), "  + a\n");
+        let swapped = lines("[a]\nx = 1\n[b]\nx = 2\n", "[a]\nx = 2\n[b]\nx = 1\n", 9);
+        assert_eq!(swapped, "  - x = 1\n  + x = 2\n  - x = 2\n  + x = 1\n");
     }
 
     #[test]
