@@ -74,15 +74,6 @@ fn sum_below(offset: &[f64], width: &[f64], approach: f64, term: impl Fn(f64, f6
     sum
 }
 
-/// How many of these, 1 where a node was in contact and 0 where not, the pressure is at odds with.
-#[multiversion(targets("x86_64+avx2"))]
-pub(crate) fn contact_changes(touching: &[f64], pressure: &[f64]) -> f64 {
-    sums(touching, pressure, |touches, p| {
-        let touches_now = if p > 0.0 { 1.0 } else { 0.0 };
-        [(touches_now - touches).abs()]
-    })[0]
-}
-
 /// Writes (approach - offset) times the stiffness of springs whose offset lies below an approach, and 0 of the others; the sum of
 /// these times the widths, and of the widths of those below.
 #[multiversion(targets("x86_64+avx2"))]

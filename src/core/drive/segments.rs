@@ -304,15 +304,14 @@ impl Segment {
     ) -> Result<Vec<Piece>, SegmentProblem> {
         let resolved = |duration_s: f64| Some(duration_s / STEPS_PER_SEGMENT);
         let (form, duration_s, longest_step_s) = match self {
-            Self::Step { to, duration_s } => {
-                finite("value", *to)?;
-                (Form::held(*to), *duration_s, None)
-            }
+            Self::Step { to, duration_s } => (Form::held(finite("value", *to)?), *duration_s, None),
             Self::Ramp { to, duration_s } => {
-                finite("value", *to)?;
-                let (from, to) = (before, *to);
-                let form = Form::Linear { from, to };
-                (form, *duration_s, resolved(*duration_s))
+                let (from, to) = (before, finite("value", *to)?);
+                (
+                    Form::Linear { from, to },
+                    *duration_s,
+                    resolved(*duration_s),
+                )
             }
             Self::Polynomial {
                 coefficients,
@@ -330,23 +329,19 @@ impl Segment {
             &Self::Sine {
                 mean,
                 amplitude,
-                angular_frequency_rad_per_s,
+                angular_frequency_rad_per_s: omega,
                 phase_rad,
                 cycles,
             } => {
-                finite("mean", mean)?;
-                positive("amplitude", amplitude)?;
-                positive("angular frequency", angular_frequency_rad_per_s)?;
-                finite("phase", phase_rad)?;
-                positive("number of cycles", cycles)?;
-                let cycle_s = std::f64::consts::TAU / angular_frequency_rad_per_s;
                 let form = Form::Sine {
-                    mean,
-                    amplitude,
-                    angular_frequency_rad_per_s,
-                    phase_rad,
+                    mean: finite("mean", mean)?,
+                    amplitude: positive("amplitude", amplitude)?,
+                    angular_frequency_rad_per_s: positive("angular frequency", omega)?,
+                    phase_rad: finite("phase", phase_rad)?,
                 };
-                (form, cycles * cycle_s, Some(cycle_s / STEPS_PER_CYCLE))
+                let cycle_s = std::f64::consts::TAU / omega;
+                let duration_s = positive("number of cycles", cycles)? * cycle_s;
+                (form, duration_s, Some(cycle_s / STEPS_PER_CYCLE))
             }
             Self::Table { times_s, values } => return table(segment, start_s, times_s, values),
         };
@@ -443,18 +438,18 @@ fn refuse_unless(holds: bool, problem: SegmentProblem) -> Result<(), SegmentProb
 }
 
 fn checked_duration(duration_s: f64) -> Result<f64, SegmentProblem> {
-    let holds = duration_s.is_finite() && duration_s > 0.0;
-    refuse_unless(holds, SegmentProblem::Duration { duration_s })?;
-    Ok(duration_s)
+    positive("duration", duration_s).map_err(|_| SegmentProblem::Duration { duration_s })
 }
 
-fn finite(what: &'static str, value: f64) -> Result<(), SegmentProblem> {
-    refuse_unless(value.is_finite(), SegmentProblem::NotFinite { what, value })
+fn finite(what: &'static str, value: f64) -> Result<f64, SegmentProblem> {
+    refuse_unless(value.is_finite(), SegmentProblem::NotFinite { what, value })?;
+    Ok(value)
 }
 
-fn positive(what: &'static str, value: f64) -> Result<(), SegmentProblem> {
+fn positive(what: &'static str, value: f64) -> Result<f64, SegmentProblem> {
     let holds = value.is_finite() && value > 0.0;
-    refuse_unless(holds, SegmentProblem::NotPositive { what, value })
+    refuse_unless(holds, SegmentProblem::NotPositive { what, value })?;
+    Ok(value)
 }
 
 #[cfg(test)]

@@ -24,26 +24,17 @@ const BEYOND_RIM: f64 = 0.1155;
 fn half_widths_m(domain: &Domain, growths: usize) -> (f64, f64) {
     match *domain {
         Domain::Around {
-            half_width_x_m,
-            half_width_y_m,
+            half_widths_m: (x_m, y_m),
             limit_m,
             ..
         } => {
             let (limit_x_m, limit_y_m) = limit_m.unwrap_or((f64::INFINITY, f64::INFINITY));
             let enlarged = |half_m: f64| half_m * CELL_ROOM * GROWTH.powi(growths as i32);
-            (
-                enlarged(half_width_x_m).min(limit_x_m),
-                enlarged(half_width_y_m).min(limit_y_m),
-            )
+            (enlarged(x_m).min(limit_x_m), enlarged(y_m).min(limit_y_m))
         }
-        Domain::Cells {
-            cells_x,
-            cells_y,
-            spacing_x_m,
-            spacing_y_m,
-        } => (
-            0.5 * cells_x as f64 * spacing_x_m,
-            0.5 * cells_y as f64 * spacing_y_m,
+        Domain::Cells { cells, spacing_m } => (
+            0.5 * cells.0 as f64 * spacing_m.0,
+            0.5 * cells.1 as f64 * spacing_m.1,
         ),
     }
 }
@@ -51,11 +42,7 @@ fn half_widths_m(domain: &Domain, growths: usize) -> (f64, f64) {
 /// Half widths (m) along x and y of the contact that a domain is to hold.
 pub fn contact_half_widths_m(domain: &Domain) -> (f64, f64) {
     match *domain {
-        Domain::Around {
-            half_width_x_m,
-            half_width_y_m,
-            ..
-        } => (half_width_x_m, half_width_y_m),
+        Domain::Around { half_widths_m, .. } => half_widths_m,
         Domain::Cells { .. } => half_widths_m(domain, 0),
     }
 }
@@ -63,14 +50,8 @@ pub fn contact_half_widths_m(domain: &Domain) -> (f64, f64) {
 /// A domain this many times as wide, where the indenter does not bring cells of its own.
 pub fn scaled(domain: &Domain, factor: f64) -> Domain {
     let mut scaled = *domain;
-    if let Domain::Around {
-        half_width_x_m,
-        half_width_y_m,
-        ..
-    } = &mut scaled
-    {
-        *half_width_x_m *= factor;
-        *half_width_y_m *= factor;
+    if let Domain::Around { half_widths_m, .. } = &mut scaled {
+        *half_widths_m = (half_widths_m.0 * factor, half_widths_m.1 * factor);
     }
     scaled
 }
@@ -111,12 +92,7 @@ pub fn fewest_cells(domain: &Domain, growths: usize) -> Option<usize> {
 /// [`GridError`], for example for cells that are too long and thin.
 pub fn grid(domain: &Domain, cells: usize, growths: usize) -> Result<Grid, GridError> {
     match *domain {
-        Domain::Cells {
-            cells_x,
-            cells_y,
-            spacing_x_m,
-            spacing_y_m,
-        } => Grid::new(cells_x, cells_y, spacing_x_m, spacing_y_m),
+        Domain::Cells { cells, spacing_m } => Grid::new(cells.0, cells.1, spacing_m.0, spacing_m.1),
         Domain::Around {
             cell_aspect_ratio, ..
         } => {
@@ -223,8 +199,7 @@ mod tests {
 
     fn around(x: f64, y: f64, aspect: f64, limit_m: Option<(f64, f64)>) -> Domain {
         Domain::Around {
-            half_width_x_m: x,
-            half_width_y_m: y,
+            half_widths_m: (x, y),
             cell_aspect_ratio: aspect,
             limit_m,
         }
@@ -261,10 +236,8 @@ mod tests {
         assert!(can_grow(&limited, 0) && can_grow(&limited, 1) && !can_grow(&limited, 2));
         assert_eq!(half_width_m(&limited, 2), 1.5);
         let own = Domain::Cells {
-            cells_x: 8,
-            cells_y: 5,
-            spacing_x_m: 0.5,
-            spacing_y_m: 1.0,
+            cells: (8, 5),
+            spacing_m: (0.5, 1.0),
         };
         assert!(!can_grow(&own, 0));
         assert_eq!(half_width_m(&own, 3), 2.5);

@@ -446,15 +446,11 @@ fn contact_half_width_m(indenter: &dyn Indenter, largest: LargestContact) -> f64
 fn contact_domain(indenter: &dyn Indenter, largest: LargestContact) -> Domain {
     let mut domain = indenter.domain(largest.maximum.max(0.0), largest.compliance_per_pa);
     if let Control::Approach = largest.control
-        && let Domain::Around {
-            half_width_x_m,
-            half_width_y_m,
-            ..
-        } = &mut domain
+        && let Domain::Around { half_widths_m, .. } = &mut domain
     {
         let (x_m, y_m) = indenter.half_widths_under_approach_m(largest.maximum);
         // Cells have a length, also where no contact is to be expected.
-        (*half_width_x_m, *half_width_y_m) = (x_m.max(SMALLEST_M), y_m.max(SMALLEST_M));
+        *half_widths_m = (x_m.max(SMALLEST_M), y_m.max(SMALLEST_M));
     }
     domain
 }

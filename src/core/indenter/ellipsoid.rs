@@ -111,8 +111,7 @@ impl Indenter for Ellipsoid {
     fn domain(&self, load_n: f64, compliance_per_pa: f64) -> Domain {
         let (x_m, y_m) = self.elastic_semi_axes_m(load_n, compliance_per_pa);
         Domain::Around {
-            half_width_x_m: x_m,
-            half_width_y_m: y_m,
+            half_widths_m: (x_m, y_m),
             cell_aspect_ratio: x_m / y_m,
             limit_m: None,
         }

@@ -251,10 +251,8 @@ impl Indenter for HeightMap {
             MapEdge::Rim => 2,
         };
         Domain::Cells {
-            cells_x: self.cells_x + border,
-            cells_y: self.cells_y + border,
-            spacing_x_m: self.spacing_x_m,
-            spacing_y_m: self.spacing_y_m,
+            cells: (self.cells_x + border, self.cells_y + border),
+            spacing_m: self.spacing_m(),
         }
     }
 
@@ -325,9 +323,7 @@ mod tests {
         assert!(open.ends_in_data() && !rim.ends_in_data());
         assert!(open.pressure_is_bounded() && !rim.pressure_is_bounded());
         let cells = |map: &HeightMap| match map.domain(1.0, 1.0) {
-            Domain::Cells {
-                cells_x, cells_y, ..
-            } => (cells_x, cells_y),
+            Domain::Cells { cells, .. } => cells,
             Domain::Around { .. } => (0, 0),
         };
         assert_eq!((cells(&open), cells(&rim)), ((4, 3), (6, 5)));

@@ -50,8 +50,8 @@ pub fn data_file(file: &str, sha256: &str) -> Vec<Setting> {
 pub enum Domain {
     /// A rectangle that just holds the elastic contact, and that may be enlarged.
     Around {
-        half_width_x_m: f64,
-        half_width_y_m: f64,
+        /// Along x and y.
+        half_widths_m: (f64, f64),
         /// Side of a cell along x over that along y which resolves the contact equally well in both directions.
         cell_aspect_ratio: f64,
         /// Half widths (m) along x and y beyond which the shape is not known, where there are such.
@@ -59,19 +59,17 @@ pub enum Domain {
     },
     /// One cell for every point at which the shape is known, which cannot be enlarged.
     Cells {
-        cells_x: usize,
-        cells_y: usize,
-        spacing_x_m: f64,
-        spacing_y_m: f64,
+        /// Along x and y.
+        cells: (usize, usize),
+        spacing_m: (f64, f64),
     },
 }
 
 impl Domain {
     /// A rectangle of these half widths, of square cells.
-    fn around((half_width_x_m, half_width_y_m): (f64, f64)) -> Self {
+    fn around(half_widths_m: (f64, f64)) -> Self {
         Self::Around {
-            half_width_x_m,
-            half_width_y_m,
+            half_widths_m,
             cell_aspect_ratio: 1.0,
             limit_m: None,
         }
@@ -242,13 +240,8 @@ pub trait Indenter: std::fmt::Debug + Send + Sync {
     /// Area (m^2) of one period of a shape that repeats itself.
     fn period_area_m2(&self) -> Option<f64> {
         match self.domain(1.0, 1.0) {
-            Domain::Cells {
-                cells_x,
-                cells_y,
-                spacing_x_m,
-                spacing_y_m,
-            } if self.is_periodic() => {
-                Some((cells_x as f64 * spacing_x_m) * (cells_y as f64 * spacing_y_m))
+            Domain::Cells { cells, spacing_m } if self.is_periodic() => {
+                Some((cells.0 as f64 * spacing_m.0) * (cells.1 as f64 * spacing_m.1))
             }
             _ => None,
         }

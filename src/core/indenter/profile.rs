@@ -365,8 +365,7 @@ impl Indenter for Profile {
     fn domain(&self, load_n: f64, compliance_per_pa: f64) -> Domain {
         let half_width_m = self.elastic_half_width_m(load_n, compliance_per_pa);
         Domain::Around {
-            half_width_x_m: half_width_m,
-            half_width_y_m: half_width_m,
+            half_widths_m: (half_width_m, half_width_m),
             cell_aspect_ratio: 1.0,
             limit_m: Some((self.end_m, self.end_m)),
         }

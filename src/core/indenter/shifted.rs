@@ -82,29 +82,24 @@ impl Indenter for Shifted {
 
     fn domain(&self, load_n: f64, compliance_per_pa: f64) -> Domain {
         let (x_m, y_m) = (self.offset_x_m.abs(), self.offset_y_m.abs());
+        let wider = |(half_x_m, half_y_m)| (half_x_m + x_m, half_y_m + y_m);
         match self.inner.domain(load_n, compliance_per_pa) {
             Domain::Around {
-                half_width_x_m,
-                half_width_y_m,
+                half_widths_m,
                 cell_aspect_ratio,
                 limit_m,
             } => Domain::Around {
-                half_width_x_m: half_width_x_m + x_m,
-                half_width_y_m: half_width_y_m + y_m,
+                half_widths_m: wider(half_widths_m),
                 cell_aspect_ratio,
-                limit_m: limit_m.map(|(limit_x_m, limit_y_m)| (limit_x_m + x_m, limit_y_m + y_m)),
+                limit_m: limit_m.map(wider),
             },
             period @ Domain::Cells { .. } if self.inner.is_periodic() => period,
-            Domain::Cells {
-                cells_x,
-                cells_y,
-                spacing_x_m,
-                spacing_y_m,
-            } => Domain::Cells {
-                cells_x: cells_x.saturating_add(more_cells(x_m, spacing_x_m)),
-                cells_y: cells_y.saturating_add(more_cells(y_m, spacing_y_m)),
-                spacing_x_m,
-                spacing_y_m,
+            Domain::Cells { cells, spacing_m } => Domain::Cells {
+                cells: (
+                    cells.0.saturating_add(more_cells(x_m, spacing_m.0)),
+                    cells.1.saturating_add(more_cells(y_m, spacing_m.1)),
+                ),
+                spacing_m,
             },
         }
     }
@@ -130,8 +125,7 @@ mod tests {
         assert_eq!(
             shifted.domain(1.0, 4e-10),
             Domain::Around {
-                half_width_x_m: contact_m + 2e-4,
-                half_width_y_m: contact_m + 1e-4,
+                half_widths_m: (contact_m + 2e-4, contact_m + 1e-4),
                 cell_aspect_ratio: 1.0,
                 limit_m: None,
             }

@@ -9,6 +9,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use crate::numerics::roots::bisect;
+
 /// Complete elliptic integrals of one modulus k.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EllipticIntegrals {
@@ -107,17 +109,9 @@ fn curvature_ratio(k_prime: f64) -> f64 {
 
 /// b/a of the contact of curvatures with this ratio, at least 1, by bisection.
 fn axis_ratio(curvature_ratio_wanted: f64) -> f64 {
-    let (mut low, mut high) = (1e-9_f64, 1.0_f64);
-    // Halving the logarithm 70 times exhausts the digits.
-    for _ in 0..70 {
-        let middle = (low * high).sqrt();
-        if curvature_ratio(middle) > curvature_ratio_wanted {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    high
+    // The logarithm is halved, of which 70 times exhaust the digits.
+    let is_longer = |ln_k: f64| curvature_ratio(ln_k.exp()) > curvature_ratio_wanted;
+    bisect(1e-9_f64.ln(), 0.0, 70, is_longer).1.exp()
 }
 
 impl EllipticContact {

@@ -23,15 +23,12 @@ use std::collections::HashMap;
 use nalgebra::{DMatrix, DVector, RowDVector};
 
 use super::remaining::Remaining;
-use crate::contact::sums;
 use crate::material::Creep;
 
 /// At which steps of a cycle each node came into contact, and left it.
 pub(super) struct ContactHistory {
     steps: usize,
-    /// 1 where a node is in contact, 0 where not.
-    touching: Vec<f64>,
-    /// Per node the steps at which it changed, from out of contact before the first.
+    /// Per node the steps at which it changed, from out of contact before the first: in contact after an odd number of them.
     changes: Vec<Vec<usize>>,
 }
 
@@ -39,33 +36,20 @@ impl ContactHistory {
     pub(super) fn new(nodes: usize) -> Self {
         Self {
             steps: 0,
-            touching: vec![0.0; nodes],
             changes: vec![Vec::new(); nodes],
         }
     }
 
     pub(super) fn clear(&mut self) {
         self.steps = 0;
-        self.touching.fill(0.0);
         self.changes.iter_mut().for_each(Vec::clear);
     }
 
     /// Takes in the pressures at the end of a step.
     pub(super) fn push(&mut self, pressure: &[f64]) {
-        /// Nodes looked at together: nearly all stay as they are.
-        const TOGETHER: usize = 64;
-        let touching = self.touching.chunks_mut(TOGETHER);
-        let blocks = touching.zip(self.changes.chunks_mut(TOGETHER));
-        for ((touching, changes), pressure) in blocks.zip(pressure.chunks(TOGETHER)) {
-            if sums::contact_changes(touching, pressure) == 0.0 {
-                continue;
-            }
-            for ((touches, changes), p) in touching.iter_mut().zip(changes).zip(pressure) {
-                let touches_now = if *p > 0.0 { 1.0 } else { 0.0 };
-                if *touches != touches_now {
-                    *touches = touches_now;
-                    changes.push(self.steps);
-                }
+        for (changes, p) in self.changes.iter_mut().zip(pressure) {
+            if (*p > 0.0) != (changes.len() % 2 == 1) {
+                changes.push(self.steps);
             }
         }
         self.steps += 1;

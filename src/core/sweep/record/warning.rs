@@ -140,15 +140,10 @@ impl Warning {
     pub(crate) fn of_cells(indenter: &dyn Indenter, radius_m: f64) -> Option<Self> {
         indenter.own_cells()?;
         // Where a map has its cells does not depend on the load.
-        let Domain::Cells {
-            spacing_x_m,
-            spacing_y_m,
-            ..
-        } = indenter.domain(1.0, 1.0)
-        else {
+        let Domain::Cells { spacing_m, .. } = indenter.domain(1.0, 1.0) else {
             return None;
         };
-        let cells = PI * radius_m * radius_m / (spacing_x_m * spacing_y_m);
+        let cells = PI * radius_m * radius_m / (spacing_m.0 * spacing_m.1);
         (cells > 0.0 && cells < FEWEST_CELLS_IN_CONTACT).then_some(Self::FewCells { cells })
     }
 
