@@ -37,63 +37,49 @@ fn slope(pairs: &[(f64, f64)], at: usize) -> Option<f64> {
     }
 }
 
-/// Factors at temperatures, ascending, and the law that goes on where they end.
-pub(super) struct Interpolation<'a, L> {
-    pub(super) temperatures_k: &'a [f64],
-    pub(super) log10_a_t: &'a [f64],
-    pub(super) law: Option<L>,
+/// The neighbours of a place among ascending ones, and the share of the way from the first to the second; the end twice where it lies
+/// outside. There is one at least.
+pub(super) fn bracket(places: &[f64], x: f64) -> (usize, usize, f64) {
+    let last = places.len().saturating_sub(1);
+    match places.partition_point(|&place| place < x) {
+        0 => (0, 0, 0.0),
+        next if next > last => (last, last, 0.0),
+        next => {
+            let (left, right) = (places[next - 1], places[next]);
+            (next - 1, next, (x - left) / (right - left))
+        }
+    }
 }
 
-impl<L: Fn(f64) -> Option<f64>> Interpolation<'_, L> {
-    /// Between the temperatures by [`monotone`]; outside the law goes on from the last factor.
-    pub(super) fn at(&self, temperature_k: f64) -> Option<f64> {
-        let (&first, &last) = (self.temperatures_k.first()?, self.temperatures_k.last()?);
-        if (first..=last).contains(&temperature_k) {
-            return self.between(temperature_k);
-        }
-        let end = if temperature_k < first {
-            0
-        } else {
-            self.temperatures_k.len() - 1
-        };
-        let law = self.law.as_ref()?;
-        let change = law(temperature_k)? - law(*self.temperatures_k.get(end)?)?;
-        Some(self.log10_a_t.get(end)? + change)
+/// The factor (log10 a_T) at a temperature, of factors at ascending temperatures and the law of them, where it has one: between two of them by
+/// [`monotone`], outside the law goes on from the last one.
+pub(super) fn log10_a_t(
+    factors: &[(f64, f64)],
+    law: &dyn Fn(f64) -> Option<f64>,
+    temperature_k: f64,
+) -> Option<f64> {
+    let (first, last) = (factors.first()?, factors.last()?);
+    if !(first.0..=last.0).contains(&temperature_k) {
+        let end = if temperature_k < first.0 { first } else { last };
+        return Some(end.1 + (law(temperature_k)? - law(end.0)?));
     }
+    // Over the law where it falls with the temperature, as it does for all but odd data; turned round to rise.
+    let straight = |t: f64| Some(-law(t)?);
+    let over_law = factors.iter().map(|pair| Some((straight(pair.0)?, pair.1)));
+    let over_law: Option<Vec<(f64, f64)>> = over_law.collect();
+    let ascending = |pairs: &Vec<(f64, f64)>| pairs.windows(2).all(|pair| pair[0].0 < pair[1].0);
+    match (over_law.filter(ascending), straight(temperature_k)) {
+        (Some(over_law), Some(x)) => monotone(&over_law, x),
+        _ => monotone(factors, temperature_k),
+    }
+}
 
-    fn between(&self, temperature_k: f64) -> Option<f64> {
-        // The law where it falls with the temperature, as it does for all but odd data; turned round to rise.
-        let straight = |t: f64| Some(-self.law.as_ref()?(t)?);
-        let coordinates: Option<Vec<f64>> =
-            self.temperatures_k.iter().map(|&t| straight(t)).collect();
-        let ascending = |c: &Vec<f64>| c.windows(2).all(|pair| pair[0] < pair[1]);
-        let (coordinates, x) = match (coordinates.filter(ascending), straight(temperature_k)) {
-            (Some(coordinates), Some(x)) => (coordinates, x),
-            _ => (self.temperatures_k.to_vec(), temperature_k),
-        };
-        let pairs: Vec<(f64, f64)> = coordinates
-            .into_iter()
-            .zip(self.log10_a_t.iter().copied())
-            .collect();
-        monotone(&pairs, x)
-    }
-
-    /// How the factor at a temperature depends on those given, in first order: between two, by the share of the way from one to
-    /// the other; outside, on the last one.
-    pub(super) fn weights(&self, temperature_k: f64) -> Vec<f64> {
-        let count = self.temperatures_k.len();
-        let mut weights = vec![0.0; count];
-        let next = self.temperatures_k.iter().position(|&t| t >= temperature_k);
-        match next {
-            Some(0) => weights[0] = 1.0,
-            Some(next) => {
-                let (left, right) = (self.temperatures_k[next - 1], self.temperatures_k[next]);
-                let share = (temperature_k - left) / (right - left);
-                weights[next - 1] = 1.0 - share;
-                weights[next] = share;
-            }
-            None => weights.iter_mut().rev().take(1).for_each(|w| *w = 1.0),
-        }
-        weights
-    }
+/// How the factor at a temperature depends on those at others, in first order: between two, by the share of the way from one to the
+/// other; outside, on the last one.
+pub(super) fn weights(temperatures_k: &[f64], temperature_k: f64) -> Vec<f64> {
+    let (left, right, share) = bracket(temperatures_k, temperature_k);
+    let mut weights = vec![0.0; temperatures_k.len()];
+    weights[left] = 1.0 - share;
+    weights[right] += share;
+    weights
 }

@@ -7,7 +7,7 @@
 
 mod work;
 
-use super::interpolation::{Interpolation, monotone};
+use super::interpolation::{self, monotone};
 use super::neighbours;
 use super::shift_law::{Arrhenius, ShiftLaw, Wlf};
 use super::{Choices, DynamicData, DynamicPoint};
@@ -193,15 +193,10 @@ impl MasterCurve {
     /// Shift factor at any temperature (log10 a_T): between isotherms by interpolation, outside the preferred law goes on from the
     /// last of them. `None` where neither says anything.
     pub fn log10_a_t(&self, temperature_k: f64) -> Option<f64> {
-        let temperatures_k: Vec<f64> = self.shifts.iter().map(|s| s.temperature_k).collect();
-        let log10_a_t: Vec<f64> = self.shifts.iter().map(|s| s.log10_a_t).collect();
-        let law = self.preferred;
-        let interpolation = Interpolation {
-            temperatures_k: &temperatures_k,
-            log10_a_t: &log10_a_t,
-            law: law.map(|law| move |t: f64| law.log10_a_t(t)),
-        };
-        interpolation.at(temperature_k)
+        let factors = self.shifts.iter().map(|s| (s.temperature_k, s.log10_a_t));
+        let factors: Vec<(f64, f64)> = factors.collect();
+        let law = |t: f64| self.preferred?.log10_a_t(t);
+        interpolation::log10_a_t(&factors, &law, temperature_k)
     }
 }
 

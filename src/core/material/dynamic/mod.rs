@@ -472,15 +472,8 @@ impl Characterisation {
 
 /// Vertical shift at a temperature: between isotherms its logarithm is interpolated, outside it stays what it was at the last.
 fn b_t(shifts: &[ShiftFactor], temperature_k: f64) -> f64 {
-    let above = shifts.partition_point(|shift| shift.temperature_k < temperature_k);
-    let below = above.checked_sub(1).and_then(|below| shifts.get(below));
-    match (below, shifts.get(above)) {
-        (Some(below), Some(above)) => {
-            let share =
-                (temperature_k - below.temperature_k) / (above.temperature_k - below.temperature_k);
-            below.b_t * (above.b_t / below.b_t).powf(share)
-        }
-        (Some(only), None) | (None, Some(only)) => only.b_t,
-        (None, None) => 1.0,
-    }
+    let temperatures_k: Vec<f64> = shifts.iter().map(|shift| shift.temperature_k).collect();
+    let (below, above, share) = interpolation::bracket(&temperatures_k, temperature_k);
+    let b_t = |place: usize| shifts.get(place).map_or(1.0, |shift| shift.b_t);
+    b_t(below) * (b_t(above) / b_t(below)).powf(share)
 }

@@ -7,7 +7,7 @@ use super::{
     MasterCurve, MasterCurveError, MasterCurveWarning, SIMPLE, ShiftChoice, ShiftFactor,
     UNDETERMINED, zero_of,
 };
-use crate::material::dynamic::interpolation::{Interpolation, monotone};
+use crate::material::dynamic::interpolation::{self, monotone};
 use crate::material::dynamic::noise::Noise;
 use crate::material::dynamic::one_curve::{OneCurve, State};
 use crate::material::dynamic::shift_law::{Factors, Form, Laws, ShiftLaw};
@@ -302,14 +302,12 @@ impl<'a> Work<'a> {
     fn assembled(&self, found: Found) -> Result<MasterCurve, MasterCurveError> {
         let fit = found.preferred.and_then(|form| found.laws.of(form));
         let reference = self.reference_temperature_k;
-        let interpolation = Interpolation {
-            temperatures_k: &self.temperatures_k,
-            log10_a_t: &found.state.places[..self.temperatures_k.len()],
-            law: fit.map(|fit| move |t: f64| fit.hyperbola.log10_a_t(t)),
-        };
+        let factors = self.temperatures_k.iter().copied();
+        let factors: Vec<(f64, f64)> = factors.zip(found.state.places.iter().copied()).collect();
+        let law = |t: f64| fit?.hyperbola.log10_a_t(t);
         let zero = match self.choices.shift {
             ShiftChoice::None => Some(0.0),
-            _ => interpolation.at(reference),
+            _ => interpolation::log10_a_t(&factors, &law, reference),
         };
         let (lowest_k, highest_k) = self.range_k();
         let zero = zero.ok_or(MasterCurveError::NoReference {
@@ -317,10 +315,9 @@ impl<'a> Work<'a> {
             lowest_k,
             highest_k,
         })?;
-        let errors = found
-            .covariance
-            .as_ref()
-            .map(|c| referred(c, &interpolation.weights(reference)));
+        let weights = interpolation::weights(&self.temperatures_k, reference);
+        let errors = found.covariance.as_ref();
+        let errors = errors.map(|covariance| referred(covariance, &weights));
         let wlf = found.laws.wlf.as_ref().and_then(|fit| fit.wlf(reference));
         let arrhenius = found.laws.arrhenius.as_ref();
         let arrhenius = arrhenius.map(|fit| fit.arrhenius(reference));
