@@ -1,10 +1,9 @@
 //! Peaks of the loss over frequency: bracketed by the samples of the sweep, then refined by solving between them.
 
+use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use crate::numerics::grid::logarithmic;
-use crate::numerics::polynomial::lagrange;
-use crate::numerics::roots::golden_section;
 use crate::sweep::plan::{AxisValues, Condition};
 
 /// A local maximum of the energy loss.
@@ -105,6 +104,9 @@ pub fn brackets_within<E>(
     let mut omegas = logarithmic(first, middle, PER_DECADE, usize::MAX);
     omegas.pop();
     omegas.extend(logarithmic(middle, last, PER_DECADE, usize::MAX));
+    // The end as it is, without the rounding of a power.
+    omegas.pop();
+    omegas.push(last);
     let computed = losses(&omegas)?;
     let points = omegas.into_iter().zip(computed);
     let curve: Vec<Point> = points.map(|(omega, (loss, _))| (omega, loss)).collect();
@@ -181,17 +183,35 @@ fn shift_and_error(abscissae: &[f64], computed: &[Loss], at: f64) -> (f64, Optio
 
 /// Maximum (position, value) of the polynomial through the points, where it lies between the outer ones.
 pub fn vertex(abscissae: &[f64], values: &[f64]) -> Option<Point> {
-    const PARTS: usize = 64;
-    let (first, last) = (*abscissae.first()?, *abscissae.last()?);
-    let curve = |x: f64| lagrange(abscissae, values, x);
-    let place = |i: usize| first + (last - first) * i as f64 / PARTS as f64;
-    let highest = |a: &usize, b: &usize| curve(place(*a)).total_cmp(&curve(place(*b)));
-    let top = (0..=PARTS).max_by(highest)?;
-    if top == 0 || top == PARTS {
-        return None;
+    let (first, last) = (abscissae.first()?, abscissae.last()?);
+    let centre = 0.5 * (first + last);
+    let half = 0.5 * (last - first);
+    let scale = values.iter().fold(0.0_f64, |s, v| s.max(v.abs()));
+    let count = abscissae.len();
+    let powers = DMatrix::from_fn(count, count, |row, column| {
+        ((abscissae[row] - centre) / half).powi(column as i32)
+    });
+    let right = DVector::from_iterator(count, values.iter().map(|v| v / scale));
+    let coefficients = powers.lu().solve(&right)?;
+    let derivative = |x: f64, order: usize| -> f64 {
+        (order..count)
+            .map(|k| {
+                let factor: f64 = (0..order).map(|j| (k - j) as f64).product();
+                coefficients[k] * factor * x.powi((k - order) as i32)
+            })
+            .sum()
+    };
+    let mut x = (0..=64)
+        .map(|i| f64::from(i) / 32.0 - 1.0)
+        .max_by(|a, b| derivative(*a, 0).total_cmp(&derivative(*b, 0)))?;
+    for _ in 0..20 {
+        let curvature = derivative(x, 2);
+        if curvature >= 0.0 {
+            return None;
+        }
+        x -= derivative(x, 1) / curvature;
     }
-    let at = golden_section(place(top - 1), place(top + 1), |x| -curve(x));
-    Some((at, curve(at)))
+    (x.abs() < 1.0).then(|| (centre + half * x, derivative(x, 0) * scale))
 }
 
 #[cfg(test)]
