@@ -15,6 +15,8 @@
 
 mod abel;
 
+use multiversion::multiversion;
+
 use super::half_space::grid::Grid;
 use super::surface::{PressureLine, Response, Surface};
 use super::{ContactError, Engine, Instant, Prescribed, Solution, sums};
@@ -136,7 +138,7 @@ impl Axisymmetric {
         let mut approach_m = self.approach_m;
         let mut pass = 1;
         loop {
-            let [width_m, sum] = sums::of_springs_below(&self.offset_m, &self.width_m, approach_m);
+            let [width_m, sum] = of_springs_below(&self.offset_m, &self.width_m, approach_m);
             let next_m = match width_m > 0.0 {
                 true => (target + sum) / width_m,
                 false => sums::least(&self.offset_m) + target / self.end_m(),
@@ -167,7 +169,7 @@ impl Axisymmetric {
     /// Writes the forces at an approach; the load they carry, and the width of the springs in contact.
     fn press_to(&self, approach_m: f64, compliance_per_pa: f64, force: &mut [f64]) -> (f64, f64) {
         let pressed = (approach_m, compliance_per_pa.recip());
-        let [sum, width_m] = sums::press(&self.offset_m, &self.width_m, pressed, force);
+        let [sum, width_m] = press(&self.offset_m, &self.width_m, pressed, force);
         (2.0 * sum, width_m)
     }
 
@@ -294,7 +296,7 @@ impl Engine for Axisymmetric {
     }
 
     fn work(&self, force: &[f64], displacement: &[f64]) -> f64 {
-        2.0 * sums::sum_of_products(&self.width_m, force, displacement)
+        2.0 * sum_of_products(&self.width_m, force, displacement)
     }
 
     fn surface_density(&mut self, nodal: &[f64], radius_m: f64) -> Result<Surface, ContactError> {
@@ -313,6 +315,49 @@ impl Engine for Axisymmetric {
 /// Number of springs up to the last in contact.
 fn in_contact(force: &[f64]) -> usize {
     force.iter().rposition(|&f| f > 0.0).map_or(0, |i| i + 1)
+}
+
+/// The width of the springs whose offset lies below an approach, and the sum of their widths times their offsets.
+#[multiversion(targets("x86_64+avx2"))]
+fn of_springs_below(offset: &[f64], width: &[f64], approach: f64) -> [f64; 2] {
+    // One sum at a time: of two in one pass the compiler takes the lanes one by one.
+    [
+        sum_below(offset, width, approach, |_, width| width),
+        sum_below(offset, width, approach, |offset, width| width * offset),
+    ]
+}
+
+/// The sum of a term, of offset and width, over the springs whose offset lies below an approach.
+#[inline(always)]
+fn sum_below(offset: &[f64], width: &[f64], approach: f64, term: impl Fn(f64, f64) -> f64) -> f64 {
+    let [sum] = sums::sums(offset, width, |offset, width| {
+        let term = term(offset, width);
+        [if offset < approach { term } else { 0.0 }]
+    });
+    sum
+}
+
+/// Writes (approach - offset) times the stiffness of springs whose offset lies below an approach, and 0 of the others; the sum of
+/// these times the widths, and of the widths of those below.
+#[multiversion(targets("x86_64+avx2"))]
+fn press(
+    offset: &[f64],
+    width: &[f64],
+    (approach, stiffness): (f64, f64),
+    force: &mut [f64],
+) -> [f64; 2] {
+    for (force, offset) in force.iter_mut().zip(offset) {
+        let elastic = (approach - offset) * stiffness;
+        *force = if *offset < approach { elastic } else { 0.0 };
+    }
+    let [load] = sums::sums(force, width, |force, width| [force * width]);
+    [load, sum_below(offset, width, approach, |_, width| width)]
+}
+
+/// The sum of a b c.
+#[multiversion(targets("x86_64+avx2"))]
+fn sum_of_products(a: &[f64], b: &[f64], c: &[f64]) -> f64 {
+    sums::sum_over_triples(a, b, c, |a, b, c| a * b * c)
 }
 
 #[cfg(test)]

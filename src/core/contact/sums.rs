@@ -1,7 +1,7 @@
 //! Sums over slices in eight interleaved parts: fast, because additions need not wait for one another, and always in the same
 //! order.
 //!
-//! The innermost loops of the springs are compiled once more for processors with AVX2, which take four lanes at a time in place of two:
+//! Innermost loops are compiled once more for processors with AVX2, which take four lanes at a time in place of two:
 //! the operations, and so the bits, are the same.
 
 use multiversion::multiversion;
@@ -40,7 +40,12 @@ pub(crate) fn sums<const N: usize>(
 
 /// The sum of a term over triples.
 #[inline(always)]
-fn sum_over_triples(a: &[f64], b: &[f64], c: &[f64], term: impl Fn(f64, f64, f64) -> f64) -> f64 {
+pub(crate) fn sum_over_triples(
+    a: &[f64],
+    b: &[f64],
+    c: &[f64],
+    term: impl Fn(f64, f64, f64) -> f64,
+) -> f64 {
     let mut lanes = [0.0; LANES];
     let ((whole_a, rest_a), (whole_b, rest_b)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
     let (whole_c, rest_c) = c.as_chunks::<LANES>();
@@ -54,61 +59,12 @@ fn sum_over_triples(a: &[f64], b: &[f64], c: &[f64], term: impl Fn(f64, f64, f64
     lanes.iter().sum::<f64>() + rest.sum::<f64>()
 }
 
-/// Of springs whose offset lies below an approach: the sum of the widths, and that of the widths times the offsets.
-#[multiversion(targets("x86_64+avx2"))]
-pub(crate) fn of_springs_below(offset: &[f64], width: &[f64], approach: f64) -> [f64; 2] {
-    // One sum at a time: of two in one pass the compiler takes the lanes one by one.
-    [
-        sum_below(offset, width, approach, |_, width| width),
-        sum_below(offset, width, approach, |offset, width| width * offset),
-    ]
-}
-
-/// The sum of a term, of offset and width, over the springs whose offset lies below an approach.
-#[inline(always)]
-fn sum_below(offset: &[f64], width: &[f64], approach: f64, term: impl Fn(f64, f64) -> f64) -> f64 {
-    let [sum] = sums(offset, width, |offset, width| {
-        let term = term(offset, width);
-        [if offset < approach { term } else { 0.0 }]
-    });
-    sum
-}
-
-/// Writes (approach - offset) times the stiffness of springs whose offset lies below an approach, and 0 of the others; the sum of
-/// these times the widths, and of the widths of those below.
-#[multiversion(targets("x86_64+avx2"))]
-pub(crate) fn press(
-    offset: &[f64],
-    width: &[f64],
-    (approach, stiffness): (f64, f64),
-    force: &mut [f64],
-) -> [f64; 2] {
-    for (force, offset) in force.iter_mut().zip(offset) {
-        let elastic = (approach - offset) * stiffness;
-        *force = if *offset < approach { elastic } else { 0.0 };
-    }
-    let [load] = sums(force, width, |force, width| [force * width]);
-    [load, sum_below(offset, width, approach, |_, width| width)]
-}
-
 /// Adds this many times a field to another.
 #[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn add_scaled(to: &mut [f64], factor: f64, field: &[f64]) {
     for (to, value) in to.iter_mut().zip(field) {
         *to += factor * value;
     }
-}
-
-/// The sum of s (to - from).
-#[multiversion(targets("x86_64+avx2"))]
-pub(crate) fn sum_of_spans(s: &[f64], from: &[f64], to: &[f64]) -> f64 {
-    sum_over_triples(s, from, to, |s, from, to| s * (to - from))
-}
-
-/// The sum of a b c.
-#[multiversion(targets("x86_64+avx2"))]
-pub(crate) fn sum_of_products(a: &[f64], b: &[f64], c: &[f64]) -> f64 {
-    sum_over_triples(a, b, c, |a, b, c| a * b * c)
 }
 
 pub(crate) fn sum(a: &[f64]) -> f64 {

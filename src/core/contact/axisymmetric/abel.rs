@@ -18,6 +18,8 @@
 use std::borrow::Cow;
 use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, FRAC_PI_2};
 
+use multiversion::multiversion;
+
 use super::{Axisymmetric, Edge, in_contact};
 use crate::contact::half_space::grid::Grid;
 use crate::contact::sums;
@@ -269,7 +271,7 @@ impl Axisymmetric {
             return 0.0;
         };
         let ends_m = (&roots_m[..inner.len()], &roots_m[1..=inner.len()]);
-        let smooth = sums::sum_of_spans(inner, ends_m.0, ends_m.1);
+        let smooth = sum_of_spans(inner, ends_m.0, ends_m.1);
         let at_edge_m = force.place_m.last().map_or(0.0, |x_m| root_m(*x_m, r_m));
         -FRAC_2_PI * (smooth + slope_at_edge * (at_edge_m - roots_m[inner.len()]))
     }
@@ -460,6 +462,12 @@ impl Axisymmetric {
         }
         segments
     }
+}
+
+/// The sum of s (to - from).
+#[multiversion(targets("x86_64+avx2"))]
+fn sum_of_spans(s: &[f64], from: &[f64], to: &[f64]) -> f64 {
+    sums::sum_over_triples(s, from, to, |s, from, to| s * (to - from))
 }
 
 #[cfg(test)]
