@@ -13,10 +13,9 @@
 use num_complex::Complex;
 
 use super::conversion;
-use super::error::{MaterialError, in_range, non_negative, positive};
+use super::error::{MaterialError, checked_branches, in_range, non_negative, positive};
 use super::harmonic::{Debye, reciprocal};
 use super::relaxation::Relaxation;
-use super::spectrum::merged;
 
 /// One Kelvin element of the series: a spring and a dashpot side by side.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -53,24 +52,18 @@ impl Creep {
     ) -> Result<Self, MaterialError> {
         let instantaneous_per_pa =
             non_negative("instantaneous compliance (1/Pa)", instantaneous_per_pa)?;
-        for (index, branch) in branches.iter().enumerate() {
-            let number = index + 1;
-            positive(
-                format!("compliance of creep branch {number} (1/Pa)"),
-                branch.compliance_per_pa,
-            )?;
-            positive(format!("time of creep branch {number} (s)"), branch.time_s)?;
-        }
+        let branches = checked_branches(
+            branches,
+            |branch| (branch.compliance_per_pa, branch.time_s),
+            |branch, more| branch.compliance_per_pa += more,
+            ["compliance", "1/Pa", "creep"],
+        )?;
         if let Some(viscosity) = viscosity_pa_s {
             positive("viscosity (Pa s)", viscosity)?;
         }
         let creep = Creep {
             instantaneous_per_pa,
-            branches: merged(
-                branches,
-                |branch| branch.time_s,
-                |kept, next| kept.compliance_per_pa += next.compliance_per_pa,
-            ),
+            branches,
             viscosity_pa_s,
         };
         let retarded = creep.retarded_compliance();

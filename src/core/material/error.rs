@@ -89,6 +89,31 @@ pub(super) fn non_negative(parameter: impl Into<String>, value: f64) -> Result<f
     Err(refused(parameter, value, "finite and not negative"))
 }
 
+/// Branches by ascending time, those of equal times added together, of positive strengths and times; `of` gives both. What they are in
+/// messages: strength, unit, function.
+pub(super) fn checked_branches<B>(
+    mut branches: Vec<B>,
+    of: fn(&B) -> (f64, f64),
+    add: fn(&mut B, f64),
+    [strength, unit, function]: [&str; 3],
+) -> Result<Vec<B>, MaterialError> {
+    for (index, branch) in branches.iter().enumerate() {
+        let (name, (value, time_s)) = (format!("{function} branch {}", index + 1), of(branch));
+        positive(format!("{strength} of {name} ({unit})"), value)?;
+        positive(format!("time of {name} (s)"), time_s)?;
+    }
+    branches.sort_by(|left, right| of(left).1.total_cmp(&of(right).1));
+    branches.dedup_by(|next, kept| {
+        let (strength, time_s) = of(next);
+        let same = time_s == of(kept).1;
+        if same {
+            add(kept, strength);
+        }
+        same
+    });
+    Ok(branches)
+}
+
 /// A parameter that does not meet its requirement.
 pub(super) fn refused(
     parameter: impl Into<String>,

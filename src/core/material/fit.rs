@@ -59,6 +59,7 @@ use super::{
     Relaxation, RelaxationBranch,
 };
 use crate::numerics::nnls::NnlsError;
+use crate::numerics::order::upper_median;
 use report::FAR_FROM_EQUILIBRIUM;
 pub use report::{FitRemark, FitReport, Misfit};
 use search::{Open, Search};
@@ -127,9 +128,7 @@ pub enum FittedSeries {
 /// in the data.
 pub fn fit(table: &Tabulated, flow: Option<bool>) -> Result<Fit, FitError> {
     let groups = table.groups();
-    let mut sorted = groups.values.clone();
-    sorted.sort_by(f64::total_cmp);
-    let reference = sorted[sorted.len() / 2];
+    let reference = upper_median(groups.values.iter().copied()).unwrap_or(1.0);
     let mut problem = Problem {
         table,
         values: groups.values.iter().map(|v| v / reference).collect(),

@@ -14,9 +14,8 @@ use num_complex::Complex;
 
 use super::conversion;
 use super::creep::Creep;
-use super::error::{MaterialError, in_range, non_negative, positive};
+use super::error::{MaterialError, checked_branches, in_range, non_negative, positive};
 use super::harmonic::{Debye, reciprocal};
-use super::spectrum::merged;
 
 /// One Maxwell element of the series: a spring and a dashpot in line.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -48,24 +47,15 @@ impl Relaxation {
         branches: Vec<RelaxationBranch>,
     ) -> Result<Self, MaterialError> {
         let equilibrium_pa = non_negative("equilibrium modulus (Pa)", equilibrium_pa)?;
-        for (index, branch) in branches.iter().enumerate() {
-            let number = index + 1;
-            positive(
-                format!("modulus of relaxation branch {number} (Pa)"),
-                branch.modulus_pa,
-            )?;
-            positive(
-                format!("time of relaxation branch {number} (s)"),
-                branch.time_s,
-            )?;
-        }
+        let branches = checked_branches(
+            branches,
+            |branch| (branch.modulus_pa, branch.time_s),
+            |branch, more| branch.modulus_pa += more,
+            ["modulus", "Pa", "relaxation"],
+        )?;
         let relaxation = Relaxation {
             equilibrium_pa,
-            branches: merged(
-                branches,
-                |branch| branch.time_s,
-                |kept, next| kept.modulus_pa += next.modulus_pa,
-            ),
+            branches,
         };
         let instantaneous = relaxation.instantaneous_modulus();
         in_range("the instantaneous modulus", instantaneous)?;

@@ -339,23 +339,6 @@ impl Problem for Refinement<'_> {
     }
 }
 
-/// Branches sorted by time, those of equal times added together.
-pub(super) fn merged<B>(
-    mut branches: Vec<B>,
-    time_s: fn(&B) -> f64,
-    add: fn(&mut B, &B),
-) -> Vec<B> {
-    branches.sort_by(|left, right| time_s(left).total_cmp(&time_s(right)));
-    branches.dedup_by(|next, kept| {
-        let same = time_s(next) == time_s(kept);
-        if same {
-            add(kept, next);
-        }
-        same
-    });
-    branches
-}
-
 /// Two branches as one: strengths added, times averaged as logarithms with the strengths as weights.
 pub(super) fn joined(left: Branch, right: Branch) -> Branch {
     let strength = left.strength + right.strength;

@@ -103,7 +103,7 @@ pub fn fit(points: &[DynamicPoint], branches: Option<usize>) -> Result<PronyFit,
         None => search.closely(&search.fewest(&merged)?)?,
         Some(branches) => {
             let solid = spectrum.constant > 0.0;
-            let constant = if solid { rows.lowest_storage() } else { 0.0 };
+            let constant = if solid { rows.lowest()[0] } else { 0.0 };
             let even = search.closely(&rows.guess(branches, limits_s, constant))?;
             let reduced = search.at_most(&merged, branches)?;
             match linear.squares(&even) < linear.squares(&reduced) {
@@ -175,7 +175,7 @@ fn spectrum_like(
     }
     let times = Rows::grid((shortest, longest), per_decade);
     let solid = rows.strengths(&times, (true, 0.0))?;
-    let storage = rows.lowest_storage();
+    let storage = rows.lowest()[0];
     match solid.constant > NOTHING * storage {
         true => Ok(solid),
         false => held_solid(rows, storage),
@@ -202,15 +202,11 @@ fn limits(rows: &Rows, beyond: f64) -> (f64, f64) {
 
 /// The spectrum of a solid, or of a fluid where the data resolve one.
 fn rest(rows: &Rows, spectrum: Series) -> Result<Series, NnlsError> {
-    let (lowest, _) = rows.window();
-    let at_lowest = rows.omegas.iter().position(|omega| *omega == lowest);
-    let Some([storage, loss]) = at_lowest.map(|point| rows.values[point]) else {
-        return Ok(spectrum);
-    };
-    if spectrum.constant > NOTHING * storage {
+    let [storage, loss] = rows.lowest();
+    if spectrum.constant > NOTHING * storage || rows.omegas.is_empty() {
         return Ok(spectrum);
     }
-    let times = Rows::grid((limits(rows, BEYOND).0, 1.0 / lowest), SPECTRUM);
+    let times = Rows::grid((limits(rows, BEYOND).0, 1.0 / rows.window().0), SPECTRUM);
     let with = |held: f64| rows.strengths(&times, (false, held));
     let fluid = with(0.0)?;
     let allowed = rows.chi_squared(&fluid) + ALLOWED;

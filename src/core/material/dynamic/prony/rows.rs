@@ -102,11 +102,11 @@ impl Rows {
         rows
     }
 
-    /// Storage modulus at the lowest frequency.
-    pub(super) fn lowest_storage(&self) -> f64 {
+    /// Both moduli at the lowest frequency; nothing where there are no points.
+    pub(super) fn lowest(&self) -> Both {
         let both = self.omegas.iter().zip(&self.values);
         let lowest = both.min_by(|left, right| left.0.total_cmp(right.0));
-        lowest.map_or(0.0, |(_, values)| values[0])
+        lowest.map_or([0.0; 2], |(_, values)| *values)
     }
 
     /// Deviations proportional to these moduli.
