@@ -1,12 +1,14 @@
 //! The record cut into cycles, each fitted by itself with mean and harmonics at the times of its samples.
 
+use std::ops::Range;
+
 use nalgebra::DVector;
 use num_complex::Complex;
 use serde::{Deserialize, Serialize};
 
 use super::Signal;
 use super::corrections::Corrections;
-use super::drift::{Drift, DriftModel};
+use super::drift::{Drift, DriftModel, Span};
 use super::frequency::RecordModel;
 use crate::cycle::Harmonics;
 
@@ -36,74 +38,56 @@ const GAP: f64 = 0.25;
 /// What may be missing of a cycle at the end of a record.
 const END: f64 = 0.02;
 
-/// The cycles of a record, and the numbers of those that miss samples.
-pub(super) struct Cut {
-    /// Samples of each.
-    pub(super) ranges: Vec<std::ops::Range<usize>>,
-    pub(super) incomplete: Vec<usize>,
-}
-
-/// Cuts a record, from its first sample on, into whole cycles.
-pub(super) fn cut(signal: &Signal, period_s: f64, interval_s: f64) -> Cut {
+/// Cuts a record, from its first sample on, into whole cycles: the samples of each.
+pub(super) fn cut(signal: &Signal, period_s: f64, interval_s: f64) -> Vec<Range<usize>> {
     let times = &signal.time_s;
-    let first = times.first().copied().unwrap_or(0.0);
-    let last = times.last().copied().unwrap_or(0.0);
-    let whole = ((last - first + interval_s) / period_s + END)
-        .floor()
-        .max(0.0) as usize;
+    let Span { first_s, last_s } = Span::of(signal);
+    let whole = (last_s - first_s + interval_s) / period_s + END;
     let begin = |number: usize| {
-        let start = first + number as f64 * period_s;
+        let start = first_s + number as f64 * period_s;
         // A sample on the seam opens the next cycle, whatever the last digit of its time.
         times.partition_point(|time| *time < start - 1e-6 * interval_s)
     };
-    let ranges: Vec<_> = (0..whole).map(|k| begin(k)..begin(k + 1)).collect();
-    let expected = period_s / interval_s;
-    let is_incomplete = |range: &std::ops::Range<usize>| {
-        let own = times.get(range.clone()).unwrap_or_default();
-        let gap = own.windows(2).map(|w| w[1] - w[0]).fold(0.0, f64::max);
-        (own.len() as f64) < COMPLETE * expected || gap > GAP * period_s + interval_s
-    };
-    let incomplete = ranges.iter().enumerate();
-    Cut {
-        incomplete: incomplete
-            .filter(|(_, range)| is_incomplete(range))
-            .map(|(k, _)| k + 1)
-            .collect(),
-        ranges,
-    }
+    let numbers = 0..whole.floor().max(0.0) as usize;
+    numbers.map(|k| begin(k)..begin(k + 1)).collect()
 }
 
-impl Cut {
-    /// Every cycle that is whole, fitted and corrected, and the numbers of the others.
-    pub(super) fn fitted(
-        &self,
-        signal: &Signal,
-        model: &RecordModel,
-        drifts: &[Drift; 2],
-        corrections: &Corrections,
-    ) -> (Vec<Cycle>, Vec<usize>) {
-        let (mut cycles, mut incomplete) = (Vec::new(), Vec::new());
-        for (number, range) in (1..).zip(&self.ranges) {
-            // In ascending order: a record of which most is missing has as many of them as cycles.
-            let is_whole = self.incomplete.binary_search(&number).is_err();
-            let whole = is_whole.then(|| range.clone());
-            match whole.and_then(|range| fit(signal, range, model, drifts)) {
-                Some(cycle) => cycles.push(Cycle {
-                    number,
-                    corrected: corrections.applied(model.angular, &cycle.raw),
-                    ..cycle
-                }),
-                None => incomplete.push(number),
-            }
+/// Whether a cycle has about all samples at these times (s) that it should have.
+fn is_complete(times_s: &[f64], period_s: f64, interval_s: f64) -> bool {
+    let gap = times_s.windows(2).map(|w| w[1] - w[0]).fold(0.0, f64::max);
+    times_s.len() as f64 >= COMPLETE * period_s / interval_s && gap <= GAP * period_s + interval_s
+}
+
+/// Every cycle of these samples that is complete, fitted and corrected, and the numbers of the others.
+pub(super) fn fitted(
+    signal: &Signal,
+    ranges: &[Range<usize>],
+    interval_s: f64,
+    model: &RecordModel,
+    drifts: &[Drift; 2],
+    corrections: &Corrections,
+) -> (Vec<Cycle>, Vec<usize>) {
+    let period_s = std::f64::consts::TAU / model.angular;
+    let (mut cycles, mut incomplete) = (Vec::new(), Vec::new());
+    for (number, range) in (1..).zip(ranges) {
+        let is_complete = is_complete(&signal.time_s[range.clone()], period_s, interval_s);
+        let whole = is_complete.then(|| fit(signal, range.clone(), model, drifts));
+        match whole.flatten() {
+            Some(cycle) => cycles.push(Cycle {
+                number,
+                corrected: corrections.applied(model.angular, &cycle.raw),
+                ..cycle
+            }),
+            None => incomplete.push(number),
         }
-        (cycles, incomplete)
     }
+    (cycles, incomplete)
 }
 
 /// One cycle fitted, still without its number and as the instrument gives it; `None` where its samples do not determine it.
 fn fit(
     signal: &Signal,
-    range: std::ops::Range<usize>,
+    range: Range<usize>,
     model: &RecordModel,
     drifts: &[Drift; 2],
 ) -> Option<Cycle> {
@@ -177,19 +161,26 @@ mod tests {
 
     #[test]
     fn a_record_is_cut_into_whole_cycles_from_its_first_sample() {
+        let incomplete = |signal: &Signal| {
+            let all = (1..).zip(cut(signal, 1.0, 0.05));
+            let is_incomplete =
+                |range: &Range<usize>| !is_complete(&signal.time_s[range.clone()], 1.0, 0.05);
+            let found = all.filter(|(_, range)| is_incomplete(range));
+            found.map(|(number, _)| number).collect::<Vec<usize>>()
+        };
         // Exactly three cycles without the sample that would close them; three and a half; one sample short.
         for (samples, cycles) in [(60, 3), (61, 3), (70, 3), (58, 2), (80, 4)] {
             let signal = record(samples, 0.05);
             let cut = cut(&signal, 1.0, 0.05);
-            assert_eq!(cut.ranges.len(), cycles, "{samples}");
-            assert!(cut.ranges.iter().all(|range| range.len() == 20));
-            assert!(cut.incomplete.is_empty());
+            assert_eq!(cut.len(), cycles, "{samples}");
+            assert!(cut.iter().all(|range| range.len() == 20));
+            assert!(incomplete(&signal).is_empty());
         }
         let mut gappy = record(80, 0.05);
         for column in [&mut gappy.time_s, &mut gappy.load_n, &mut gappy.approach_m] {
             column.drain(25..32);
         }
-        assert_eq!(cut(&gappy, 1.0, 0.05).incomplete, [2]);
+        assert_eq!(incomplete(&gappy), [2]);
     }
 
     #[test]

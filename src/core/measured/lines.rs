@@ -1,6 +1,6 @@
 //! Lines in what is left of a signal: hum of the mains, vibrations, harmonics that the sampling has folded back.
 
-use super::frequency::{LINES_A_FREQUENCY, power, uniform};
+use super::frequency::{Fit, LINES_A_FREQUENCY, RecordModel, power, uniform};
 use super::quality::Finding;
 use super::signal::Sampling;
 use crate::numerics::order::upper_median;
@@ -18,30 +18,27 @@ const LARGEST: usize = 1 << 17;
 /// Harmonics that are looked for in a folded line.
 const FOLDED: usize = 60;
 
-/// What is left of a signal, and the oscillation that was taken out.
-pub(super) struct Rest<'a> {
-    pub(super) name: &'static str,
-    pub(super) times_s: &'a [f64],
-    pub(super) residual: &'a [f64],
-    pub(super) amplitude: f64,
-    pub(super) hz: f64,
-    /// How many were fitted.
-    pub(super) harmonics: usize,
-}
-
-/// The highest line, where there is one.
-pub(super) fn highest(rest: &Rest<'_>, sampling: &Sampling) -> Option<Finding> {
-    let points = rest.residual.len().next_power_of_two().clamp(64, LARGEST);
-    let resampled = uniform(rest.times_s, rest.residual, points);
+/// The highest line in what a fit leaves of a signal, where there is one.
+pub(super) fn highest(
+    signal: &'static str,
+    model: &RecordModel,
+    fit: &Fit,
+    times_s: &[f64],
+    sampling: &Sampling,
+) -> Option<Finding> {
+    let residual = fit.residual.as_slice();
+    let own_hz = model.angular / std::f64::consts::TAU;
+    let points = residual.len().next_power_of_two().clamp(64, LARGEST);
+    let resampled = uniform(times_s, residual, points);
     let deviation = (resampled.iter().map(|r| r * r).sum::<f64>() / points as f64).sqrt();
     let lines = power(&resampled);
     let record_hz = 1.0 / sampling.duration_s;
     let line_hz = (points - 1) as f64 / points as f64 * record_hz / LINES_A_FREQUENCY as f64;
     let highest = ((0.5 / sampling.interval_s) / line_hz) as usize;
     let is_own = |hz: f64| {
-        let nearest = (hz / rest.hz).round();
-        let apart = (hz - nearest * rest.hz).abs() / record_hz;
-        let is_fitted = nearest <= rest.harmonics as f64;
+        let nearest = (hz / own_hz).round();
+        let apart = (hz - nearest * own_hz).abs() / record_hz;
+        let is_fitted = nearest <= model.harmonics as f64;
         apart < if is_fitted { BROAD } else { 2.0 }
     };
     // A sine of amplitude A makes A points/4 through the window.
@@ -49,21 +46,21 @@ pub(super) fn highest(rest: &Rest<'_>, sampling: &Sampling) -> Option<Finding> {
     let candidates = (1..highest.min(lines.len())).filter(|k| !is_own(line_hz * *k as f64));
     let best = candidates.max_by(|a, b| lines[*a].total_cmp(&lines[*b]))?;
     let size = amplitude(lines[best]);
-    if size < NOTICEABLE * rest.amplitude || lines[best] < ABOVE * around(&lines, best) {
+    if size < NOTICEABLE * fit.amplitude() || lines[best] < ABOVE * around(&lines, best) {
         return None;
     }
     let hz = line_hz * best as f64;
     let sampled_hz = 1.0 / sampling.interval_s;
     let is_folded = |n: &usize| {
-        let own_hz = *n as f64 * rest.hz;
-        let turns = (own_hz / sampled_hz).round();
-        turns >= 1.0 && ((own_hz - turns * sampled_hz).abs() - hz).abs() < record_hz
+        let harmonic_hz = *n as f64 * own_hz;
+        let turns = (harmonic_hz / sampled_hz).round();
+        turns >= 1.0 && ((harmonic_hz - turns * sampled_hz).abs() - hz).abs() < record_hz
     };
     Some(Finding::Line {
-        signal: rest.name.to_owned(),
+        signal: signal.to_owned(),
         hz,
         amplitude: size,
-        folded_harmonic: (rest.harmonics + 1..=FOLDED).find(is_folded),
+        folded_harmonic: (model.harmonics + 1..=FOLDED).find(is_folded),
     })
 }
 

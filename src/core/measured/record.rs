@@ -6,7 +6,7 @@ use super::bias::Unbiased;
 use super::cycles::{self, Cycle};
 use super::drift::{Drift, DriftModel, Span};
 use super::frequency::{self, Frequency, RecordModel};
-use super::lines::{self, Rest};
+use super::lines;
 use super::mean::{Mean, mean_cycle};
 use super::moduli::Contact;
 use super::quality::Finding;
@@ -88,12 +88,7 @@ pub fn analyse(signal: &Signal, options: &Options) -> Result<MeasuredLoop, Measu
     let (model, frequency) = oscillation(&mut signal, &sampling, options, &mut findings)?;
     let period_s = frequency.hz.recip();
     signal.clipped(period_s, &mut findings);
-    let drifts = drifts(
-        &model,
-        (&signal, &sampling),
-        options.frequency_hz,
-        &mut findings,
-    )?;
+    let drifts = drifts(&model, &signal, &sampling, options, &mut findings)?;
     let (samples, cycles) = (sampling.samples, sampling.duration_s / period_s);
     if cycles > samples as f64 {
         let hz = frequency.hz;
@@ -104,13 +99,20 @@ pub fn analyse(signal: &Signal, options: &Options) -> Result<MeasuredLoop, Measu
         });
     }
     let cut = cycles::cut(&signal, period_s, sampling.interval_s);
-    if cut.ranges.is_empty() {
+    if cut.is_empty() {
         return Err(MeasuredError::NoWholeCycle {
             hz: frequency.hz,
             cycles: sampling.duration_s / period_s,
         });
     }
-    let (cycles, incomplete) = cut.fitted(&signal, &model, &drifts, &options.corrections);
+    let (cycles, incomplete) = cycles::fitted(
+        &signal,
+        &cut,
+        sampling.interval_s,
+        &model,
+        &drifts,
+        &options.corrections,
+    );
     if !incomplete.is_empty() {
         findings.push(Finding::Incomplete { cycles: incomplete });
     }
@@ -122,7 +124,7 @@ pub fn analyse(signal: &Signal, options: &Options) -> Result<MeasuredLoop, Measu
     let judged = stabilisation::judge(&values, &numbers);
     findings.extend(judged.findings);
     let used: Vec<usize> = judged.used.iter().map(|place| numbers[*place]).collect();
-    let ranges = used.iter().map(|number| cut.ranges[number - 1].clone());
+    let ranges = used.iter().map(|number| cut[number - 1].clone());
     let counted = || judged.used.iter().map(|place| &cycles[*place]);
     let radii = counted().filter_map(|cycle| cycle.contact_radius_m);
     let mean = Mean {
@@ -268,8 +270,9 @@ fn leave_out_spikes(model: &RecordModel, signal: &mut Signal, findings: &mut Vec
 /// The drifts of both signals at the frequency of the model, and lines beside the oscillation; refuses signals without an oscillation.
 fn drifts(
     model: &RecordModel,
-    (signal, sampling): (&Signal, &Sampling),
-    given_hz: Option<f64>,
+    signal: &Signal,
+    sampling: &Sampling,
+    options: &Options,
     findings: &mut Vec<Finding>,
 ) -> Result<[Drift; 2], MeasuredError> {
     let span = Span::of(signal);
@@ -283,18 +286,11 @@ fn drifts(
         if fit.amplitude() < 4.5 * (2.0 * variance / samples).sqrt() {
             return Err(MeasuredError::NoOscillation {
                 signal: name,
-                given_hz,
+                given_hz: options.frequency_hz,
             });
         }
-        let rest = Rest {
-            name,
-            times_s: &signal.time_s,
-            residual: fit.residual.as_slice(),
-            amplitude: fit.amplitude(),
-            hz: model.angular / std::f64::consts::TAU,
-            harmonics: model.harmonics,
-        };
-        findings.extend(lines::highest(&rest, sampling));
+        let times_s = &signal.time_s;
+        findings.extend(lines::highest(name, model, fit, times_s, sampling));
     }
     Ok([0, 1].map(|which| {
         let coefficients = &fits[which].coefficients.as_slice()[model.common()..];

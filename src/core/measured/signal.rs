@@ -179,21 +179,16 @@ impl Signal {
     /// How often the signal stays exactly at a value, longer than a sine stays within a hundredth of its amplitude of its peak.
     fn plateaus(&self, values: &[f64], limit: f64, period_s: f64) -> usize {
         const PART: f64 = 0.04;
-        let mut found = 0;
-        let mut begin = None;
-        for i in 0..=values.len() {
-            let stays = values.get(i).is_some_and(|value| *value == limit);
-            match (stays, begin) {
-                (true, None) => begin = Some(i),
-                (false, Some(from)) => {
-                    let long_s = self.time_s[i - 1] - self.time_s[from];
-                    found += usize::from(i - from >= 3 && long_s > PART * period_s);
-                    begin = None;
-                }
-                _ => {}
+        let places: Vec<usize> = (0..values.len()).collect();
+        let stays = |place: usize| values[place] == limit;
+        let runs = places.chunk_by(|a, b| stays(*a) == stays(*b));
+        let is_plateau = |run: &&[usize]| match run {
+            [first, .., last] if stays(*first) && run.len() >= 3 => {
+                self.time_s[*last] - self.time_s[*first] > PART * period_s
             }
-        }
-        found
+            _ => false,
+        };
+        runs.filter(is_plateau).count()
     }
 }
 

@@ -38,7 +38,7 @@ pub(super) fn judge(values: &[Values], numbers: &[usize]) -> Judged {
             findings.push(Finding::FewCycles { cycles: count });
             Some(0)
         }
-        false => starts(last_start).find(|start| is_steady(&values[*start..])),
+        false => starts(last_start).find(|start| trend(&values[*start..]).is_none()),
     };
     let Some(start) = first else {
         let change = trend(&values[last_start..]);
@@ -89,12 +89,6 @@ fn scale(quantity: Quantity, center: f64) -> f64 {
         Quantity::PhaseLag => 1.0,
         _ => center.abs(),
     }
-}
-
-/// Whether nothing changes over these cycles.
-fn is_steady(values: &[Values]) -> bool {
-    let mut judged = JUDGED.into_iter();
-    judged.all(|quantity| trend_of(values, quantity).is_none())
 }
 
 /// The quantity that changes most over these cycles, and its relative change.
