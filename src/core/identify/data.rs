@@ -1,7 +1,7 @@
 //! Measured numbers of cycles or of a history, and what makes them useless.
 
 use crate::drive::{Control, HarmonicDrive, SegmentedDrive};
-use crate::identify::{IdentifyError, column};
+use crate::identify::IdentifyError;
 use crate::quantity::{Dimension, format_human};
 use crate::sweep::record::error_bars::Quantity;
 
@@ -22,7 +22,20 @@ impl Number {
     /// Its column, as in `sweep.csv` or `history.csv`.
     pub fn column(self) -> &'static str {
         match self {
-            Self::OfCycle(quantity) => column(quantity),
+            Self::OfCycle(quantity) => match quantity {
+                Quantity::EnergyLoss => "energy_loss_j",
+                Quantity::PhaseLag => "phase_lag_rad",
+                Quantity::StorageModulus => "storage_modulus_pa",
+                Quantity::LossModulus => "loss_modulus_pa",
+                Quantity::ApproachMin => "approach_min_m",
+                Quantity::ApproachMax => "approach_max_m",
+                Quantity::ContactRadiusMin => "contact_radius_min_m",
+                Quantity::ContactRadiusMax => "contact_radius_max_m",
+                Quantity::PeakPressureMin => "peak_pressure_min_pa",
+                Quantity::PeakPressureMax => "peak_pressure_max_pa",
+                Quantity::Harmonic2 => "harmonic_2",
+                Quantity::Harmonic3 => "harmonic_3",
+            },
             Self::ApproachAmplitude => "approach_amplitude_m",
             Self::LoadAmplitude => "load_amplitude_n",
             Self::Approach => "approach_m",

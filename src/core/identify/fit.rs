@@ -9,7 +9,7 @@ use crate::identify::candidate::{Candidate, candidates, choose, leave_out_outlie
 use crate::identify::identified::{CellError, Identified, judged};
 use crate::identify::model::Model;
 use crate::identify::noise::Knowledge;
-use crate::identify::selection::{Linearised, residuals};
+use crate::identify::selection::Linearised;
 use crate::identify::series::Point;
 use crate::identify::{IdentifyError, IdentifyPlan, MOST_BRANCHES};
 use crate::material::Relaxation;
@@ -18,8 +18,8 @@ use crate::numerics::levenberg_marquardt::{Ending, Problem, minimise};
 /// Step of an unknown for derivatives of the exact model: wide beside what springs and steps leave of roughness in it.
 const STEP: f64 = 0.02;
 
-/// Which part of a change of the factors is made, at first and where that did not lead to a solid.
-const PARTS: [f64; 3] = [1.0, 0.5, 0.25];
+/// Which part of a change of the factors is made where all of it did not lead to a solid.
+const PARTS: [f64; 2] = [0.5, 0.25];
 
 /// Which part of the noise of a number the error of the resolution may be.
 const SEEN: f64 = 0.1;
@@ -46,53 +46,54 @@ pub fn identify(plan: &IdentifyPlan, interrupt: &AtomicBool) -> Result<Identifie
     let most = most_branches(plan)?;
     let mut model = Model::new(plan, interrupt);
     let mut linearised = Linearised::new(plan)?;
-    let mut first = None;
+    let mut found = tried(&model, &mut linearised, most, 1.0);
     // Far from the solution the factors may overshoot: what was not found is sought again with smaller changes of them. On cells, whose
     // cycles take a second each, that would be many minutes.
-    let attempts = match plan.solver.engine {
-        EngineKind::Axisymmetric => PARTS.len(),
-        _ => 1,
-    };
-    for (attempt, part) in PARTS.into_iter().take(attempts).enumerate() {
-        if attempt > 0 {
-            linearised.start_over(&model)?;
-        }
-        let mut found = tried(&model, &mut linearised, (most, part));
-        if let (true, Ok(near)) = (attempt > 0, &found) {
-            // What was found by another way round may be near the solution only: once more with the factors there.
-            let misfit = near.misfit();
-            let again = (model.numbers_where_found(&near.relaxation)).and_then(|exact| {
-                linearised.take_factors(&near.point, &exact, 1.0);
-                tried(&model, &mut linearised, (most, part))
-            });
-            if again.as_ref().is_ok_and(|again| again.misfit() <= misfit) {
-                found = again;
+    if plan.solver.engine == EngineKind::Axisymmetric {
+        for part in PARTS {
+            if !found.as_ref().is_err_and(IdentifyError::ends_search) {
+                break;
             }
-        }
-        match found {
-            Err(
-                error @ (IdentifyError::Contradiction { .. }
-                | IdentifyError::NoFit(_)
-                | IdentifyError::NoCycle { .. }
-                | IdentifyError::NoHistory(_)),
-            ) => first = first.or(Some(error)),
-            Err(error) => return Err(error),
-            Ok(found) => return at_full_resolution(&mut model, &linearised, found),
+            linearised.start_over(&model)?;
+            let mut other = tried(&model, &mut linearised, most, part);
+            if let Ok(near) = &other {
+                // It may be near the solution only: once more with the factors there.
+                let exact = near.compared.iter().map(|c| Some(c.computed));
+                linearised.take_factors(&near.point, &exact.collect::<Vec<_>>(), 1.0);
+                let again = tried(&model, &mut linearised, most, part);
+                if again.as_ref().is_ok_and(|a| a.misfit() <= near.misfit()) {
+                    other = again;
+                }
+            }
+            found = match other {
+                Err(error) if error.ends_search() => found,
+                other => other,
+            };
         }
     }
-    Err(first.unwrap_or(IdentifyError::NoFit("nothing was tried")))
+    at_full_resolution(&mut model, &linearised, found?)
+}
+
+impl IdentifyError {
+    /// Whether it says that a search did not lead to a solid, and nothing of the plan.
+    fn ends_search(&self) -> bool {
+        matches!(
+            self,
+            Self::Contradiction { .. } | Self::NoFit(_) | Self::NoCycle { .. } | Self::NoHistory(_)
+        )
+    }
 }
 
 /// A search on the linearised contact, and what comes of it on the exact model.
 fn tried(
     model: &Model<'_>,
     linearised: &mut Linearised<'_>,
-    (most, part): (usize, f64),
+    most: usize,
+    part: f64,
 ) -> Result<Identified, IdentifyError> {
-    let (candidates, chosen) = on_linearised(model, linearised, (most, part))?;
+    let (candidates, chosen) = on_linearised(model, linearised, most, part)?;
     let start = candidates[chosen].point.clone();
-    let from = start.clone();
-    let found = on_exact(model, linearised, (candidates, start), &from)?;
+    let found = on_exact(model, linearised, candidates, start.clone(), &start)?;
     refuse_contradiction(linearised.plan, &found)?;
     Ok(found)
 }
@@ -114,8 +115,8 @@ fn at_full_resolution(
         Err(IdentifyError::Interrupted) => return Err(IdentifyError::Interrupted),
         Ok(None) | Err(_) => return Ok(found),
     }
-    let of_candidates = (found.candidates.clone(), found.linearised.clone());
-    match on_exact(model, linearised, of_candidates, &found.point) {
+    let (candidates, start) = (found.candidates.clone(), found.linearised.clone());
+    match on_exact(model, linearised, candidates, start, &found.point) {
         Err(IdentifyError::Interrupted) => Err(IdentifyError::Interrupted),
         // What was found holds without the correction too.
         Err(_) => Ok(found),
@@ -123,11 +124,12 @@ fn at_full_resolution(
     }
 }
 
-/// Refines a candidate, which was found on the linearised contact at `start`, on the exact model.
+/// Refines a candidate, which was found on the linearised contact at `start`, on the exact model, `from` some point on.
 fn on_exact(
     model: &Model<'_>,
     linearised: &Linearised<'_>,
-    (candidates, start): (Vec<Candidate>, Point),
+    candidates: Vec<Candidate>,
+    start: Point,
     from: &Point,
 ) -> Result<Identified, IdentifyError> {
     let exact = Exact { model, linearised };
@@ -137,8 +139,7 @@ fn on_exact(
     let derivatives = derivatives.ok_or(IdentifyError::NoFit(
         "the exact model has no derivatives there",
     ))?;
-    let models = (model, linearised);
-    judged(models, (candidates, start), found, &derivatives)
+    judged(model, linearised, candidates, start, found, &derivatives)
 }
 
 /// How many branches the number of data allows.
@@ -164,7 +165,8 @@ fn most_branches(plan: &IdentifyPlan) -> Result<usize, IdentifyError> {
 fn on_linearised(
     model: &Model<'_>,
     linearised: &mut Linearised<'_>,
-    (most, part): (usize, f64),
+    most: usize,
+    part: f64,
 ) -> Result<(Vec<Candidate>, usize), IdentifyError> {
     let plan = linearised.plan;
     let mut known: Vec<Point> = Vec::new();
@@ -205,13 +207,9 @@ struct Exact<'a> {
 
 impl Exact<'_> {
     fn scaled(&self, numbers: &[f64], point: &Point) -> Option<DVector<f64>> {
-        let data = self.linearised.plan.measurements.data().iter();
-        let all = data.zip(numbers).zip(&self.linearised.noise.relative);
-        let scaled = all.map(|((datum, number), error)| {
-            let number = number.max(1e-6 * datum.value);
-            (number / datum.value).ln() / error
-        });
-        residuals(scaled, point)
+        let data = self.linearised.plan.measurements.data().iter().zip(numbers);
+        let relative = data.map(|(d, number)| (number.max(1e-6 * d.value) / d.value).ln());
+        self.linearised.weighed(relative, point)
     }
 }
 

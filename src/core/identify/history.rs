@@ -7,88 +7,28 @@
 //! F(delta(t)) = integral of C(t - s) dW(s),      W(t) = integral of E(t - s)/(1 - nu^2) dF(delta(s)),      dF/d(delta) = 2 a(delta)
 //! ```
 //!
-//! Both are exact for a body of revolution as long as the contact does not shrink, and close to it afterwards: what is missing is in
-//! the factors that the exact model gives.
+//! Both are exact for a body of revolution as long as the contact does not shrink, and close to it afterwards. What is missing then, or
+//! where F is no power of the approach, as it is taken to be here, is in the factors that the exact model gives.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::drive::{Control, Schedule, SegmentedDrive, Steps};
 use crate::identify::data::{Datum, Number};
+use crate::identify::linear::{PowerContact, product_m2};
 use crate::identify::series::Point;
 use crate::identify::{Driven, IdentifyError, IdentifyPlan};
-use crate::indenter::Indenter;
 use crate::material::{Creep, MaterialError, Relaxation};
 use crate::simulation::between::values_at;
 use crate::simulation::scenario::ScenarioPlan;
 use crate::simulation::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome};
 
-/// Load per modulus and approach of an elastic contact, between points that are joined by powers.
-struct Elastic {
-    /// Logarithms of approaches (m) and of F (m^2), ascending.
-    ln_approach: Vec<f64>,
-    ln_load: Vec<f64>,
-}
-
-impl Elastic {
-    /// From a hundredth of an atom to a metre.
-    const RANGE_M: (f64, f64) = (1e-12, 1.0);
-    const PER_DECADE: f64 = 20.0;
-
-    fn new(indenter: &dyn Indenter) -> Self {
-        let (low, high) = Self::RANGE_M;
-        let count = ((high / low).log10() * Self::PER_DECADE) as i32;
-        let approach = |k: i32| low * 10_f64.powf(f64::from(k) / Self::PER_DECADE);
-        let half_width = |k: i32| indenter.half_widths_under_approach_m(approach(k)).0;
-        let (mut ln_approach, mut ln_load) = (Vec::new(), Vec::new());
-        // From nothing to the first point a power, half of it for a cone and all for a punch.
-        let mut load = 1.5 * approach(0) * half_width(0);
-        for k in 0..=count {
-            if k > 0 {
-                load += (half_width(k) + half_width(k - 1)) * (approach(k) - approach(k - 1));
-            }
-            if load.is_finite() && load > 0.0 {
-                ln_approach.push(approach(k).ln());
-                ln_load.push(load.ln());
-            }
-        }
-        Self {
-            ln_approach,
-            ln_load,
-        }
-    }
-
-    /// F (m^2) of an approach (m); 0 above the surface.
-    fn load(&self, approach_m: f64) -> f64 {
-        match approach_m > 0.0 {
-            true => between(&self.ln_approach, &self.ln_load, approach_m.ln()).exp(),
-            false => 0.0,
-        }
-    }
-
-    /// The approach (m) of F (m^2).
-    fn approach_m(&self, load: f64) -> f64 {
-        match load > 0.0 {
-            true => between(&self.ln_load, &self.ln_approach, load.ln()).exp(),
-            false => 0.0,
-        }
-    }
-}
-
-/// The straight line through the two points about `at`, or the two at the end that it lies beyond.
-fn between(x: &[f64], y: &[f64], at: f64) -> f64 {
-    let above = x.partition_point(|x| *x < at);
-    let above = above.clamp(1, x.len().saturating_sub(1).max(1));
-    match (x.get(above - 1..=above), y.get(above - 1..=above)) {
-        (Some([a, b]), Some([of_a, of_b])) if b > a => of_a + (of_b - of_a) * (at - a) / (b - a),
-        _ => f64::NAN,
-    }
-}
-
 /// A history without its contact.
 pub(super) struct LinearHistory<'a> {
     plan: &'a IdentifyPlan,
     control: Control,
-    elastic: Elastic,
+    /// Largest load (N), and the contact about it; none before it is linearised, or where the approach is prescribed.
+    largest_n: f64,
+    contact: Option<PowerContact>,
     /// Length (s) and values at beginning and end of every step of what is convolved: load (N), or F (m^2).
     steps: Vec<(f64, f64, f64)>,
     /// For each datum how many steps lead to it.
@@ -105,10 +45,9 @@ impl<'a> LinearHistory<'a> {
             shortest_time_s: None,
         };
         let schedule = Schedule::new(drive, chosen, &times).ok()?;
-        let elastic = Elastic::new(plan.contact.indenter.as_ref());
         let convolved = |value: f64| match drive.control() {
             Control::Load => value,
-            Control::Approach => elastic.load(value),
+            Control::Approach => product_m2(plan.contact.indenter.as_ref(), value),
         };
         let mut before = 0.0;
         let steps = schedule.moments.iter().map(|moment| {
@@ -120,8 +59,22 @@ impl<'a> LinearHistory<'a> {
             steps: steps.collect(),
             ends: schedule.requested.iter().map(|moment| moment + 1).collect(),
             plan,
-            elastic,
+            largest_n: drive.maximum(),
+            contact: None,
         })
+    }
+
+    /// Linearises about a contact of this compliance (1/Pa) at rest.
+    pub(super) fn about(&mut self, compliance_per_pa: f64) {
+        let indenter = self.plan.contact.indenter.as_ref();
+        self.contact = match self.control {
+            Control::Load => Some(PowerContact::new(
+                indenter,
+                self.largest_n,
+                compliance_per_pa,
+            )),
+            Control::Approach => None,
+        };
     }
 
     /// The number of every datum; `None` where the pair has no compliance.
@@ -146,7 +99,8 @@ impl<'a> LinearHistory<'a> {
                 let falling = branches().map(|b| (-b.compliance_per_pa, b.time_s));
                 let falling: Vec<_> = falling.collect();
                 let products = self.convolved(creep.instantaneous_compliance() + late, &falling);
-                let approach = |product: &f64| self.elastic.approach_m(*product);
+                let contact = self.contact?;
+                let approach = |product: &f64| contact.approach_m(*product);
                 products.iter().map(approach).collect()
             }
         })
@@ -253,27 +207,5 @@ impl Driven {
             Self::Cycles(_) => None,
             Self::History(drive) => Some(drive),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::indenter::{Cone, FlatPunch, Sphere};
-
-    #[test]
-    fn an_elastic_contact_is_that_of_hertz_sneddon_and_a_punch() {
-        let sphere = Elastic::new(&Sphere::new(0.01).unwrap());
-        // 4/3 sqrt(R) delta^(3/2), by the trapezium rule on a grid of 12 %.
-        let hertz = 4.0 / 3.0 * (0.01_f64 * 1e-5_f64.powi(3)).sqrt();
-        assert!((sphere.load(1e-5) / hertz - 1.0).abs() < 2e-3);
-        assert!((sphere.approach_m(hertz) / 1e-5 - 1.0).abs() < 2e-3);
-        let punch = Elastic::new(&FlatPunch::new(1e-3).unwrap());
-        assert!((punch.load(1e-5) / (2e-3 * 1e-5) - 1.0).abs() < 2e-3);
-        let half_angle = 70_f64.to_radians();
-        let cone = Elastic::new(&Cone::new(half_angle).unwrap());
-        let sneddon = 2.0 / std::f64::consts::PI * half_angle.tan() * 1e-10;
-        assert!((cone.load(1e-5) / sneddon - 1.0).abs() < 3e-3);
-        assert_eq!(cone.load(-1.0), 0.0);
     }
 }

@@ -112,8 +112,10 @@ pub struct Identified {
 
 /// The result with all that is known of it.
 pub(super) fn judged(
-    (model, linearised): (&Model<'_>, &Linearised<'_>),
-    (candidates, start): (Vec<Candidate>, Point),
+    model: &Model<'_>,
+    linearised: &Linearised<'_>,
+    candidates: Vec<Candidate>,
+    start: Point,
     found: Solution<Point>,
     derivatives: &DMatrix<f64>,
 ) -> Result<Identified, IdentifyError> {

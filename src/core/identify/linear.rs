@@ -11,6 +11,7 @@
 use num_complex::Complex;
 
 use crate::drive::{Control, HarmonicDrive};
+use crate::identify::IdentifyPlan;
 use crate::identify::data::Number;
 use crate::indenter::Indenter;
 use crate::material::{Compressibility, Creep};
@@ -18,6 +19,70 @@ use crate::sweep::record::error_bars::Quantity;
 
 /// The smallest part of the mean that an oscillation leaves.
 const LEAST: f64 = 1e-3;
+
+/// The contact compliance (1/Pa) at rest of an indenter that is not rigid.
+pub(super) fn at_rest(indenter: Option<&Creep>) -> f64 {
+    let at_rest = indenter.and_then(Creep::equilibrium_compliance);
+    at_rest.unwrap_or(0.0)
+}
+
+/// The radius of a contact as a power of the product W C of load and compliance, about one such product.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PowerContact {
+    /// Logarithms of the radius (m) and of the product (m^2) that it belongs to, and the power.
+    ln_radius: f64,
+    ln_product: f64,
+    power: f64,
+}
+
+/// The power of x that a function goes with about some x.
+fn power(function: impl Fn(f64) -> f64, x: f64) -> f64 {
+    let power = (function(1.1 * x) / function(x)).ln() / 1.1_f64.ln();
+    if power.is_finite() { power } else { 0.0 }
+}
+
+impl PowerContact {
+    pub(super) fn new(indenter: &dyn Indenter, load_n: f64, compliance_per_pa: f64) -> Self {
+        let radius_m = |load_n| indenter.elastic_half_width_m(load_n, compliance_per_pa);
+        Self {
+            ln_radius: radius_m(load_n).max(f64::MIN_POSITIVE).ln(),
+            ln_product: (load_n * compliance_per_pa).ln(),
+            power: power(radius_m, load_n).clamp(0.0, 0.9),
+        }
+    }
+
+    /// Of one radius (m) whatever the load.
+    fn of_radius(radius_m: f64) -> Self {
+        Self {
+            ln_radius: radius_m.max(f64::MIN_POSITIVE).ln(),
+            ln_product: 0.0,
+            power: 0.0,
+        }
+    }
+
+    /// The radius (m) of this product (m^2).
+    fn radius_m(&self, product: f64) -> f64 {
+        (self.ln_radius + self.power * (product.ln() - self.ln_product)).exp()
+    }
+
+    /// The approach (m) of this product (m^2); 0 where there is no load.
+    pub(super) fn approach_m(&self, product: f64) -> f64 {
+        match product > 0.0 {
+            true => product / (2.0 * self.radius_m(product) * (1.0 - self.power)),
+            false => 0.0,
+        }
+    }
+}
+
+/// The product W C (m^2) of an elastic contact under this approach (m), which is exact where its radius is a power of the approach; 0
+/// above the surface.
+pub(super) fn product_m2(indenter: &dyn Indenter, approach_m: f64) -> f64 {
+    let radius_m = |approach_m| indenter.half_widths_under_approach_m(approach_m).0;
+    match approach_m > 0.0 {
+        true => 2.0 * radius_m(approach_m) * approach_m / (1.0 + power(radius_m, approach_m)),
+        false => 0.0,
+    }
+}
 
 /// A cycle's contact about some equilibrium modulus.
 #[derive(Debug, Clone, Copy)]
@@ -29,51 +94,37 @@ pub(super) struct LinearCycle<'a> {
     compressibility: &'a Compressibility,
     /// Contact compliance (1/Pa) of an indenter that is not rigid: at the frequency, and at rest.
     indenter_material: (Complex<f64>, f64),
-    /// Logarithms of the radius (m) and of the product of load and compliance (m^2) that it belongs to, and the power.
-    ln_radius: f64,
-    ln_product: f64,
-    power: f64,
+    contact: PowerContact,
 }
 
 impl<'a> LinearCycle<'a> {
+    /// About a contact of this compliance (1/Pa) at rest, under an indenter that is rigid or has a contact compliance of its own.
     pub(super) fn new(
-        (angular_frequency_rad_per_s, drive): (f64, &HarmonicDrive),
-        indenter: &dyn Indenter,
-        (compressibility, indenter_material): (&'a Compressibility, Option<&Creep>),
-        equilibrium_pa: f64,
+        plan: &'a IdentifyPlan,
+        indenter_material: Option<&Creep>,
+        compliance_per_pa: f64,
+        angular_frequency_rad_per_s: f64,
+        drive: &HarmonicDrive,
     ) -> Self {
-        let indenter_material = indenter_material.map_or((0.0.into(), 0.0), |creep| {
-            let at_rest = creep.equilibrium_compliance().unwrap_or(0.0);
-            (
-                creep.complex_compliance(angular_frequency_rad_per_s),
-                at_rest,
-            )
-        });
-        let at_rest = compressibility.contact_modulus(equilibrium_pa.into()).re;
-        let compliance = at_rest.recip() + indenter_material.1;
+        let at_frequency = |creep: &Creep| creep.complex_compliance(angular_frequency_rad_per_s);
         let attraction = drive.pull_off_n();
         let mean = (drive.mean() + attraction).max(0.5 * (drive.maximum() + attraction));
-        let (radius, product, power) = match drive.control() {
-            Control::Load => {
-                let at = |load| indenter.elastic_half_width_m(load, compliance);
-                let (radius, wider) = (at(mean), at(1.1 * mean));
-                let power = (wider / radius).ln() / 1.1_f64.ln();
-                (radius, mean * compliance, power)
-            }
-            Control::Approach => (indenter.half_widths_under_approach_m(mean).0, 1.0, 0.0),
-        };
+        let indenter = plan.contact.indenter.as_ref();
         Self {
             control: drive.control(),
             angular_frequency_rad_per_s,
             mean,
             amplitude: drive.amplitude(),
-            compressibility,
-            indenter_material,
-            ln_radius: radius.max(f64::MIN_POSITIVE).ln(),
-            ln_product: product.ln(),
-            power: match power.is_finite() {
-                true => power.clamp(0.0, 0.9),
-                false => 0.0,
+            compressibility: &plan.contact.material.compressibility,
+            indenter_material: (
+                indenter_material.map_or(0.0.into(), at_frequency),
+                at_rest(indenter_material),
+            ),
+            contact: match drive.control() {
+                Control::Load => PowerContact::new(indenter, mean, compliance_per_pa),
+                Control::Approach => {
+                    PowerContact::of_radius(indenter.half_widths_under_approach_m(mean).0)
+                }
             },
         }
     }
@@ -110,7 +161,7 @@ impl<'a> LinearCycle<'a> {
                 self.approach_amplitude_m(equilibrium_pa, modulus)
             }
             (Number::LoadAmplitude, Control::Approach) => {
-                2.0 * self.radius_m(1.0) * self.amplitude * modulus.norm()
+                2.0 * self.contact.radius_m(1.0) * self.amplitude * modulus.norm()
             }
             // Given by the drive.
             _ => self.amplitude,
@@ -119,13 +170,8 @@ impl<'a> LinearCycle<'a> {
 
     /// Amplitude (m) of the approach under a prescribed load, of a contact of these moduli (Pa).
     fn approach_amplitude_m(&self, equilibrium_pa: f64, modulus: Complex<f64>) -> f64 {
-        let radius_m = self.radius_m(self.mean / equilibrium_pa);
+        let radius_m = self.contact.radius_m(self.mean / equilibrium_pa);
         self.amplitude / (2.0 * radius_m * modulus.norm())
-    }
-
-    /// The radius (m) of this product of load and compliance (m^2).
-    fn radius_m(&self, product: f64) -> f64 {
-        (self.ln_radius + self.power * (product.ln() - self.ln_product)).exp()
     }
 
     fn under_load(&self, quantity: Quantity, equilibrium_pa: f64, modulus: Complex<f64>) -> f64 {
@@ -134,17 +180,16 @@ impl<'a> LinearCycle<'a> {
         let swing = self.amplitude / size;
         let end = |sign: f64| (mean + sign * swing).max(LEAST * mean);
         let load = |sign: f64| (self.mean + sign * self.amplitude).max(LEAST * self.mean);
-        let approach = |product: f64| product / (2.0 * self.radius_m(product) * (1.0 - self.power));
-        let pressure = |sign: f64| load(sign) / self.radius_m(end(sign)).powi(2);
+        let pressure = |sign: f64| load(sign) / self.contact.radius_m(end(sign)).powi(2);
         match quantity {
             Quantity::EnergyLoss => {
                 let approach_m = self.approach_amplitude_m(equilibrium_pa, modulus);
                 std::f64::consts::PI * self.amplitude * approach_m * modulus.im / size
             }
-            Quantity::ApproachMin => approach(end(-1.0)),
-            Quantity::ApproachMax => approach(end(1.0)),
-            Quantity::ContactRadiusMin => self.radius_m(end(-1.0)),
-            Quantity::ContactRadiusMax => self.radius_m(end(1.0)),
+            Quantity::ApproachMin => self.contact.approach_m(end(-1.0)),
+            Quantity::ApproachMax => self.contact.approach_m(end(1.0)),
+            Quantity::ContactRadiusMin => self.contact.radius_m(end(-1.0)),
+            Quantity::ContactRadiusMax => self.contact.radius_m(end(1.0)),
             Quantity::PeakPressureMin => pressure(-1.0),
             _ => pressure(1.0),
         }
@@ -156,7 +201,7 @@ impl<'a> LinearCycle<'a> {
         equilibrium_pa: f64,
         modulus: Complex<f64>,
     ) -> f64 {
-        let radius = self.radius_m(1.0);
+        let radius = self.contact.radius_m(1.0);
         let force = |sign: f64| {
             let mean = self.mean * equilibrium_pa;
             (mean + sign * self.amplitude * modulus.norm()).max(LEAST * mean)
@@ -170,5 +215,28 @@ impl<'a> LinearCycle<'a> {
             // Given by the drive.
             _ => 1.0,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::indenter::{Cone, FlatPunch, Sphere};
+
+    #[test]
+    fn an_elastic_contact_is_that_of_hertz_sneddon_and_a_punch() {
+        let sphere = Sphere::new(0.01).unwrap();
+        // 4/3 sqrt(R) delta^(3/2).
+        let hertz = 4.0 / 3.0 * (0.01_f64 * 1e-5_f64.powi(3)).sqrt();
+        assert!((product_m2(&sphere, 1e-5) / hertz - 1.0).abs() < 2e-3);
+        let contact = PowerContact::new(&sphere, 0.1, 10.0 * hertz);
+        assert!((contact.approach_m(hertz) / 1e-5 - 1.0).abs() < 2e-3);
+        let punch = FlatPunch::new(1e-3).unwrap();
+        assert!((product_m2(&punch, 1e-5) / (2e-3 * 1e-5) - 1.0).abs() < 2e-3);
+        let half_angle = 70_f64.to_radians();
+        let cone = Cone::new(half_angle).unwrap();
+        let sneddon = 2.0 / std::f64::consts::PI * half_angle.tan() * 1e-10;
+        assert!((product_m2(&cone, 1e-5) / sneddon - 1.0).abs() < 3e-3);
+        assert_eq!(product_m2(&cone, -1.0), 0.0);
     }
 }

@@ -73,7 +73,6 @@ use crate::material::{Compressibility, Material, MaterialError, ModulusKind, Rel
 use crate::sweep::case::SetupError;
 use crate::sweep::plan::CyclePlan;
 use crate::sweep::plan::contact::ContactPlan;
-use crate::sweep::record::error_bars::Quantity;
 
 /// Times of two branches closer than this factor are one time.
 pub const CLOSEST: f64 = 3.0;
@@ -300,22 +299,4 @@ pub enum IdentifyError {
     NoFit(&'static str),
     #[error("interrupted")]
     Interrupted,
-}
-
-/// The column of a quantity, as in `sweep.csv`.
-pub fn column(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::EnergyLoss => "energy_loss_j",
-        Quantity::PhaseLag => "phase_lag_rad",
-        Quantity::StorageModulus => "storage_modulus_pa",
-        Quantity::LossModulus => "loss_modulus_pa",
-        Quantity::ApproachMin => "approach_min_m",
-        Quantity::ApproachMax => "approach_max_m",
-        Quantity::ContactRadiusMin => "contact_radius_min_m",
-        Quantity::ContactRadiusMax => "contact_radius_max_m",
-        Quantity::PeakPressureMin => "peak_pressure_min_pa",
-        Quantity::PeakPressureMax => "peak_pressure_max_pa",
-        Quantity::Harmonic2 => "harmonic_2",
-        Quantity::Harmonic3 => "harmonic_3",
-    }
 }

@@ -89,40 +89,19 @@ impl<'a> Model<'a> {
         all.pop().ok_or(IdentifyError::NoFit("there is no series"))
     }
 
-    /// The same for each of several series, whose cycles are solved side by side.
+    /// The same for each of several series.
     pub(super) fn numbers_of_each(
         &self,
         all: &[Relaxation],
     ) -> Result<Vec<Vec<f64>>, IdentifyError> {
-        if let Driven::History(drive) = &self.plan.drive {
-            let numbers = |series| history::numbers(self.plan, drive, series, self.interrupt);
-            let corrected = |series| {
-                let numbers = numbers(series)?.into_iter().enumerate();
-                let corrected = numbers.map(|(place, number)| number * self.correction(place));
-                Ok(corrected.collect())
-            };
-            return all.par_iter().map(corrected).collect();
-        }
-        let setups: Vec<Setup> = all
-            .iter()
-            .map(|series| self.setup(series))
-            .collect::<Result<_, _>>()?;
-        let cycles: Vec<&[Datum]> = self.plan.measurements.places().collect();
-        let of_each =
-            (setups.par_iter()).flat_map(|setup| cycles.par_iter().map(move |data| (setup, data)));
-        let solved: Vec<Option<CaseResult>> = of_each
-            .map(|(setup, data)| Ok(Some(self.cycle(setup, &data[0])?)))
-            .collect::<Result<_, IdentifyError>>()?;
-        let each = solved.chunks(cycles.len());
-        each.map(|of_series| {
-            let numbers = self.of_cycles(of_series).into_iter();
-            let data = self.plan.measurements.data();
-            let defined = numbers
-                .zip(data)
-                .map(|(number, datum)| number.ok_or_else(|| datum.undefined()));
-            defined.collect()
-        })
-        .collect()
+        let data = self.plan.measurements.data();
+        let defined = |numbers: Vec<Option<f64>>| {
+            let numbers = numbers.into_iter().zip(data);
+            let numbers = numbers.map(|(number, datum)| number.ok_or_else(|| datum.undefined()));
+            numbers.collect()
+        };
+        let each = self.solved(all, false)?.into_iter();
+        each.map(defined).collect()
     }
 
     /// The computed numbers of a series on the way to the one that is sought: `None` of a cycle that is not found.
@@ -130,30 +109,54 @@ impl<'a> Model<'a> {
         &self,
         series: &Relaxation,
     ) -> Result<Vec<Option<f64>>, IdentifyError> {
-        if let Driven::History(_) = &self.plan.drive {
-            let numbers = self.numbers(series)?.into_iter();
-            return Ok(numbers.map(Some).collect());
+        let mut all = self.solved(std::slice::from_ref(series), true)?;
+        all.pop().ok_or(IdentifyError::NoFit("there is no series"))
+    }
+
+    /// The corrected numbers of each of several series, whose cycles are solved side by side. Of a series that `may_lose` cycles a few
+    /// that are not found are no matter; where most are lost nothing is learnt.
+    fn solved(
+        &self,
+        all: &[Relaxation],
+        may_lose: bool,
+    ) -> Result<Vec<Vec<Option<f64>>>, IdentifyError> {
+        if let Driven::History(drive) = &self.plan.drive {
+            let numbers = all.par_iter().map(|series| {
+                let numbers = history::numbers(self.plan, drive, series, self.interrupt)?;
+                let numbers = numbers.into_iter().enumerate();
+                Ok(numbers
+                    .map(|(place, number)| Some(number * self.correction(place)))
+                    .collect())
+            });
+            return numbers.collect();
         }
-        let setup = self.setup(series)?;
+        let setups = all.iter().map(|series| self.setup(series));
+        let setups: Vec<Setup> = setups.collect::<Result<_, _>>()?;
         let cycles: Vec<&[Datum]> = self.plan.measurements.places().collect();
-        let solved = cycles.par_iter().map(|data| self.cycle(&setup, &data[0]));
-        let solved: Vec<_> = solved.collect();
-        let is_lost = |cycle: &Result<_, _>| matches!(cycle, Err(IdentifyError::NoCycle { .. }));
-        let lost = solved.iter().filter(|cycle| is_lost(cycle)).count();
-        let found = solved.into_iter().map(|cycle| match cycle {
-            // Of a few it is no matter; where most are lost nothing is learnt.
-            Err(IdentifyError::NoCycle { .. }) if 2 * lost <= cycles.len() => Ok(None),
-            other => other.map(Some),
+        let of_each =
+            (setups.par_iter()).flat_map(|setup| cycles.par_iter().map(move |data| (setup, data)));
+        let solved = of_each.map(|(setup, data)| self.cycle(setup, &data[0]));
+        let solved: Vec<Result<CaseResult, IdentifyError>> = solved.collect();
+        let each = solved.chunks(cycles.len()).map(|of_series| {
+            let is_lost =
+                |cycle: &&Result<_, _>| matches!(cycle, Err(IdentifyError::NoCycle { .. }));
+            let lost = of_series.iter().filter(is_lost).count();
+            let may_lose = may_lose && 2 * lost <= cycles.len();
+            let found = of_series.iter().map(|cycle| match cycle {
+                Err(IdentifyError::NoCycle { .. }) if may_lose => Ok(None),
+                other => other.as_ref().map(Some).map_err(Clone::clone),
+            });
+            Ok(self.of_cycles(&found.collect::<Result<Vec<_>, _>>()?))
         });
-        Ok(self.of_cycles(&found.collect::<Result<Vec<_>, _>>()?))
+        each.collect()
     }
 
     /// The corrected number of every datum; `None` where its cycle has none or was not found.
-    fn of_cycles(&self, cycles: &[Option<CaseResult>]) -> Vec<Option<f64>> {
+    fn of_cycles(&self, cycles: &[Option<&CaseResult>]) -> Vec<Option<f64>> {
         let places = self.plan.measurements.places().zip(cycles);
         let data = places.flat_map(|(data, cycle)| data.iter().map(move |datum| (datum, cycle)));
         let numbers = data.enumerate().map(|(place, (datum, cycle))| {
-            let cycle = cycle.as_ref()?;
+            let cycle = (*cycle)?;
             let first = cycle.analysis.harmonics.first();
             let number = match datum.number {
                 Number::OfCycle(quantity) => quantity.of(cycle)?,

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::drive::Control;
 use crate::identify::data::{Datum, Measurements, Number};
 use crate::identify::history::LinearHistory;
-use crate::identify::linear::LinearCycle;
+use crate::identify::linear::{LinearCycle, at_rest};
 use crate::identify::model::Model;
 use crate::identify::noise::Noise;
 use crate::identify::series::{Limits, Point};
@@ -78,21 +78,27 @@ impl Linearised<'_> {
 
     /// Linearises about a contact with this equilibrium modulus (Pa).
     pub(super) fn about(&mut self, equilibrium_pa: f64) {
-        let indenter = self.plan.contact.indenter.as_ref();
-        let indenter_material = self.plan.contact.material.indenter_material.as_ref();
-        let indenter_material =
-            indenter_material.and_then(|material| material.contact_compliance().ok());
-        let bodies = (
-            &self.plan.contact.material.compressibility,
-            indenter_material.as_ref(),
-        );
-        let places = self.plan.measurements.places();
-        let cycles = places.filter_map(|data| Some((data[0].place, data[0].drive?)));
-        self.cycles = cycles
-            .map(|(omega, drive)| {
-                LinearCycle::new((omega, &drive), indenter, bodies, equilibrium_pa)
-            })
-            .collect();
+        let plan = self.plan;
+        let known = &plan.contact.material;
+        let indenter = known.indenter_material.as_ref();
+        let indenter = indenter.and_then(|material| material.contact_compliance().ok());
+        let own = known.compressibility.contact_modulus(equilibrium_pa.into());
+        let compliance_per_pa = own.re.recip() + at_rest(indenter.as_ref());
+        if let Some(history) = &mut self.history {
+            history.about(compliance_per_pa);
+        }
+        let cycles = plan.measurements.places().filter_map(|data| {
+            let (omega, drive) = (data[0].place, data[0].drive?);
+            let indenter = indenter.as_ref();
+            Some(LinearCycle::new(
+                plan,
+                indenter,
+                compliance_per_pa,
+                omega,
+                &drive,
+            ))
+        });
+        self.cycles = cycles.collect();
     }
 
     /// Logarithms of all numbers without their factors.
@@ -120,6 +126,20 @@ impl Linearised<'_> {
         let all = self.measured().data().iter().zip(numbers);
         all.map(|(datum, (ln, factor))| ln + factor - datum.value.ln())
             .collect()
+    }
+
+    /// Residuals from logarithms of computed over measured numbers, each in its standard deviation, and those that keep the times of a
+    /// series apart; `None` where one is not finite.
+    pub(super) fn weighed(
+        &self,
+        relative: impl Iterator<Item = f64>,
+        point: &Point,
+    ) -> Option<DVector<f64>> {
+        let of_data = relative
+            .zip(&self.noise.relative)
+            .map(|(r, error)| r / error);
+        let residuals = DVector::from_vec(of_data.chain(point.kept_apart()).collect());
+        residuals.iter().all(|r| r.is_finite()).then_some(residuals)
     }
 
     /// Takes the factors from the exact numbers of a series, as far as they were found; `part` of the way to them. The largest change.
@@ -166,7 +186,7 @@ impl Linearised<'_> {
     }
 
     /// The factors of the one-branch series of the grid that fits best by the exact model, for contacts that are nothing like
-    /// linear. Under a prescribed approach all loads go with the moduli, which are scaled.
+    /// linear.
     ///
     /// # Errors
     /// As those of the model, but for cycles that are not found.
@@ -181,7 +201,6 @@ impl Linearised<'_> {
                 Err(IdentifyError::NoCycle { .. } | IdentifyError::NoHistory(_)) => continue,
                 exact => exact?,
             };
-            let (point, exact) = self.rescaled(point, exact);
             let squares = self.mean_square(&exact);
             if best.as_ref().is_none_or(|(least, ..)| squares < *least) {
                 best = Some((squares, point, exact));
@@ -193,12 +212,10 @@ impl Linearised<'_> {
         Ok(())
     }
 
-    /// Moduli and loads multiplied by what brings them nearest to the measured ones; as they are where the load is prescribed.
-    fn rescaled(&self, mut point: Point, mut exact: Vec<Option<f64>>) -> (Point, Vec<Option<f64>>) {
-        if self.plan.drive.control() == Control::Load {
-            return (point, exact);
-        }
-        let goes = |datum: &Datum| match datum.number {
+    /// The mean square of the logarithms of computed over measured numbers, of those that were found. Under a prescribed approach all
+    /// loads go with the moduli and factors do not: loads that are off by one factor are met.
+    fn mean_square(&self, exact: &[Option<f64>]) -> f64 {
+        let is_load = |number: Number| match number {
             Number::OfCycle(quantity) => matches!(
                 quantity,
                 Quantity::EnergyLoss
@@ -210,33 +227,23 @@ impl Linearised<'_> {
             Number::Load | Number::LoadAmplitude => true,
             Number::Approach | Number::ApproachAmplitude => false,
         };
-        let mut loads: Vec<(f64, &mut Option<f64>)> = (self.measured().data().iter())
-            .zip(&mut exact)
-            .filter(|(datum, _)| goes(datum))
-            .map(|(datum, exact)| (datum.value, exact))
-            .collect();
-        let offs = loads.iter();
-        let offs = offs.filter_map(|(value, exact)| Some((value / (**exact)?).ln()));
-        let offs: Vec<f64> = offs.filter(|off| off.is_finite()).collect();
-        if offs.is_empty() {
-            return (point, exact);
-        }
-        let off = offs.iter().sum::<f64>() / offs.len() as f64;
-        point.scale_moduli(off);
-        for exact in loads.iter_mut().flat_map(|(_, exact)| exact.as_mut()) {
-            *exact *= off.exp();
-        }
-        (point, exact)
-    }
-
-    /// The mean square of the logarithms of computed over measured numbers, of those that were found.
-    fn mean_square(&self, exact: &[Option<f64>]) -> f64 {
+        let is_free = self.plan.drive.control() == Control::Approach;
         let data = self.measured().data().iter().zip(exact);
-        let squares = data.filter_map(|(datum, exact)| {
-            let ratio = (*exact)?.max(1e-6 * datum.value) / datum.value;
-            Some(ratio.ln().powi(2))
+        let offs = data.filter_map(|(datum, exact)| {
+            let off = ((*exact)? / datum.value).ln();
+            Some((off, is_free && is_load(datum.number)))
         });
-        let squares: Vec<f64> = squares.collect();
+        let (free, bound): (Vec<_>, Vec<_>) = offs.partition(|(_, is_free)| *is_free);
+        let known: Vec<f64> = free
+            .iter()
+            .map(|(off, _)| *off)
+            .filter(|off| off.is_finite())
+            .collect();
+        let common = known.iter().sum::<f64>() / known.len().max(1) as f64;
+        let free = free.iter().map(|(off, _)| off - common);
+        let offs = free.chain(bound.iter().map(|(off, _)| *off));
+        // A millionth, nothing, and what is below zero are all as far off.
+        let squares: Vec<f64> = offs.map(|off| off.max(1e-6_f64.ln()).powi(2)).collect();
         squares.iter().sum::<f64>() / squares.len().max(1) as f64
     }
 
@@ -294,8 +301,7 @@ impl Problem for Linearised<'_> {
     type Unknowns = Point;
 
     fn residuals(&self, point: &Point) -> Option<DVector<f64>> {
-        let scaled = self.relative(point).into_iter().zip(&self.noise.relative);
-        residuals(scaled.map(|(r, error)| r / error), point)
+        self.weighed(self.relative(point).into_iter(), point)
     }
 
     fn derivatives(&self, point: &Point) -> Option<DMatrix<f64>> {
@@ -311,10 +317,4 @@ impl Problem for Linearised<'_> {
     fn clamp(&self, place: usize, value: f64) -> f64 {
         self.limits.clamp(place, value)
     }
-}
-
-/// Residuals of the data, and those that keep the times of a series apart; `None` where one is not finite.
-pub(super) fn residuals(of_data: impl Iterator<Item = f64>, point: &Point) -> Option<DVector<f64>> {
-    let residuals = DVector::from_vec(of_data.chain(point.kept_apart()).collect());
-    residuals.iter().all(|r| r.is_finite()).then_some(residuals)
 }

@@ -134,12 +134,6 @@ impl Point {
         self.pairs().map(|b| (b[0].exp(), b[1].exp())).collect()
     }
 
-    /// Multiplies all moduli by exp(`by`).
-    pub(super) fn scale_moduli(&mut self, by: f64) {
-        let moduli = (0..self.0.len()).filter(|place| !is_time(*place));
-        moduli.for_each(|place| self.0[place] += by);
-    }
-
     pub(super) fn relaxation(&self) -> Result<Relaxation, MaterialError> {
         let branches = self.branches_pa_s().into_iter();
         let branches = branches.map(|(modulus_pa, time_s)| RelaxationBranch { modulus_pa, time_s });
