@@ -56,10 +56,9 @@ impl MapEdge {
 /// The half-space engine puts one cell on every point. On a grid of other spacing the gap is interpolated bilinearly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeightMap {
-    cells_x: usize,
-    cells_y: usize,
-    spacing_x_m: f64,
-    spacing_y_m: f64,
+    /// Points along x and y, and their distances.
+    cells: (usize, usize),
+    spacing_m: (f64, f64),
     /// Row by row, x fastest, rows in the order of ascending y.
     gap_m: Vec<f64>,
     edge: MapEdge,
@@ -99,13 +98,13 @@ impl HeightMap {
                 value: values_m[at],
             });
         }
-        let (spacing_x_m, spacing_y_m) = spacing_m;
-        let spacing = Value::Quantities(vec![spacing_x_m, spacing_y_m], Dimension::Length);
+        for each_m in [spacing_m.0, spacing_m.1] {
+            super::positive_length("spacing", each_m)?;
+        }
+        let spacing = Value::Quantities(vec![spacing_m.0, spacing_m.1], Dimension::Length);
         Ok(Self {
-            cells_x,
-            cells_y,
-            spacing_x_m: super::positive_length("spacing", spacing_x_m)?,
-            spacing_y_m: super::positive_length("spacing", spacing_y_m)?,
+            cells,
+            spacing_m,
             gap_m: gap_from(values_m, quantity),
             edge,
             shape: Self::SHAPE,
@@ -133,12 +132,12 @@ impl HeightMap {
 
     /// Points along x and y.
     pub fn cells(&self) -> (usize, usize) {
-        (self.cells_x, self.cells_y)
+        self.cells
     }
 
     /// Distance (m) between points along x and y.
     pub fn spacing_m(&self) -> (f64, f64) {
-        (self.spacing_x_m, self.spacing_y_m)
+        self.spacing_m
     }
 
     /// Gap (m) at every point, row by row.
@@ -178,10 +177,9 @@ fn neighbours(
     let last = (cells - 1) as f64;
     let place = position_m / spacing_m + 0.5 * last;
     let nearest = place.round();
-    let place = if (place - nearest).abs() <= ON_POINT_TOLERANCE {
-        nearest
-    } else {
-        place
+    let place = match (place - nearest).abs() <= ON_POINT_TOLERANCE {
+        true => nearest,
+        false => place,
     };
     let beyond = match edge {
         MapEdge::Unknown => 0.0,
@@ -225,13 +223,13 @@ impl Indenter for HeightMap {
     }
 
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {
-        let columns = neighbours(x_m, self.spacing_x_m, self.cells_x, self.edge);
-        let rows = neighbours(y_m, self.spacing_y_m, self.cells_y, self.edge);
+        let columns = neighbours(x_m, self.spacing_m.0, self.cells.0, self.edge);
+        let rows = neighbours(y_m, self.spacing_m.1, self.cells.1, self.edge);
         let (Some((left, right, along_x)), Some((lower, upper, along_y))) = (columns, rows) else {
             return f64::INFINITY;
         };
         let along_row = |row: usize| {
-            let row = row * self.cells_x;
+            let row = row * self.cells.0;
             between(self.gap_m[row + left], self.gap_m[row + right], along_x)
         };
         between(along_row(lower), along_row(upper), along_y)
@@ -239,20 +237,17 @@ impl Indenter for HeightMap {
 
     /// Half the longer side of the map: what any contact with it fits into.
     fn elastic_half_width_m(&self, _load_n: f64, _compliance_per_pa: f64) -> f64 {
-        let x_m = self.cells_x as f64 * self.spacing_x_m;
-        let y_m = self.cells_y as f64 * self.spacing_y_m;
+        let x_m = self.cells.0 as f64 * self.spacing_m.0;
+        let y_m = self.cells.1 as f64 * self.spacing_m.1;
         0.5 * x_m.max(y_m)
     }
 
     /// A cell on every point; around a rim one more on each side, which stays empty.
     fn domain(&self, _load_n: f64, _compliance_per_pa: f64) -> Domain {
-        let border = match self.edge {
-            MapEdge::Unknown | MapEdge::Periodic => 0,
-            MapEdge::Rim => 2,
-        };
+        let border = if self.edge == MapEdge::Rim { 2 } else { 0 };
         Domain::Cells {
-            cells: (self.cells_x + border, self.cells_y + border),
-            spacing_m: self.spacing_m(),
+            cells: (self.cells.0 + border, self.cells.1 + border),
+            spacing_m: self.spacing_m,
         }
     }
 
