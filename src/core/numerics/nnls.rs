@@ -1,7 +1,7 @@
 //! Non-negative least squares: the active set method of C. L. Lawson and R. J. Hanson, *Solving Least Squares Problems*,
 //! Prentice-Hall 1974 (SIAM 1995), chapter 23, with a QR factorisation of the columns in use.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// Why no solution was found.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -24,42 +24,122 @@ const GRADIENT_TOLERANCE: f64 = 1e-13;
 /// A column that its predecessors represent to this share of its length is no column of its own.
 const RANK_TOLERANCE: f64 = 1e-13;
 
+/// What is added to the diagonal of the products of unit columns, to keep columns apart that are equal to rounding.
+const RIDGE: f64 = 1e-11;
+
 /// The x that minimises |A x - b| with no component negative.
 ///
 /// # Errors
 /// [`NnlsError`].
 pub fn nnls(matrix: &DMatrix<f64>, b: &DVector<f64>) -> Result<DVector<f64>, NnlsError> {
-    nnls_from(matrix, b, Vec::new(), GRADIENT_TOLERANCE * b.norm())
+    let (unit, lengths) = unit_columns(matrix, b)?;
+    let tolerance = GRADIENT_TOLERANCE * b.norm();
+    active_set(&Rows { unit, b }, &lengths, Vec::new(), tolerance)
 }
 
-/// The same from the columns on that the solution of a similar problem has in use. A column of unit length is taken in where the gradient
-/// exceeds the tolerance, in the units of b.
+/// The same for a problem that is solved again and again with little change: by the products of the columns (R. Bro and S. de Jong,
+/// J. Chemometrics 11 (1997) 393), from those on that the last solution has in use. A column of unit length is taken in where the
+/// gradient exceeds the tolerance, in the units of b. The products square the condition of the columns: what is lost is far below the
+/// noise of a measurement, and an exchange of columns costs nothing beside the products.
 ///
 /// # Errors
 /// [`NnlsError`].
 pub fn nnls_from(
     matrix: &DMatrix<f64>,
     b: &DVector<f64>,
-    mut passive: Vec<usize>,
+    start: Vec<usize>,
     tolerance: f64,
 ) -> Result<DVector<f64>, NnlsError> {
+    let (unit, lengths) = unit_columns(matrix, b)?;
+    let products = Products {
+        // By blocks, which `tr_mul` does not take.
+        products: unit.transpose() * &unit,
+        right: unit.tr_mul(b),
+    };
+    active_set(&products, &lengths, start, tolerance)
+}
+
+/// Columns of unit length, which make the answer independent of their units, and their lengths.
+fn unit_columns(
+    matrix: &DMatrix<f64>,
+    b: &DVector<f64>,
+) -> Result<(DMatrix<f64>, Vec<f64>), NnlsError> {
     if !matrix.iter().chain(b.iter()).all(|value| value.is_finite()) {
         return Err(NnlsError::NotFinite);
     }
-    let columns = matrix.ncols();
     let lengths: Vec<f64> = matrix.column_iter().map(|column| column.norm()).collect();
-    // Columns of unit length make the answer independent of their units.
     let mut unit = matrix.clone();
     for (mut column, &length) in unit.column_iter_mut().zip(&lengths) {
         if length > 0.0 {
             column /= length;
         }
     }
+    Ok((unit, lengths))
+}
+
+/// A least squares problem on columns of unit length.
+trait Problem {
+    /// A' (b - A x).
+    fn gradient(&self, x: &DVector<f64>) -> DVector<f64>;
+
+    /// The unconstrained solution on these columns; `None` where they do not determine one.
+    fn least_squares(&self, columns: &[usize]) -> Option<DVector<f64>>;
+}
+
+/// Solved by a QR factorisation of the columns.
+struct Rows<'a> {
+    unit: DMatrix<f64>,
+    b: &'a DVector<f64>,
+}
+
+impl Problem for Rows<'_> {
+    fn gradient(&self, x: &DVector<f64>) -> DVector<f64> {
+        self.unit.tr_mul(&(self.b - &self.unit * x))
+    }
+
+    fn least_squares(&self, columns: &[usize]) -> Option<DVector<f64>> {
+        least_squares(&self.unit.select_columns(columns), self.b)
+    }
+}
+
+/// Solved by a Cholesky factorisation of the products of the columns.
+struct Products {
+    products: DMatrix<f64>,
+    right: DVector<f64>,
+}
+
+impl Problem for Products {
+    fn gradient(&self, x: &DVector<f64>) -> DVector<f64> {
+        let mut gradient = self.right.clone();
+        for (column, &value) in self.products.column_iter().zip(x.iter()) {
+            if value > 0.0 {
+                gradient.axpy(-value, &column, 1.0);
+            }
+        }
+        gradient
+    }
+
+    fn least_squares(&self, columns: &[usize]) -> Option<DVector<f64>> {
+        let chosen = DMatrix::from_fn(columns.len(), columns.len(), |i, j| {
+            self.products[(columns[i], columns[j])] + if i == j { RIDGE } else { 0.0 }
+        });
+        let right = DVector::from_fn(columns.len(), |i, _| self.right[columns[i]]);
+        Some(Cholesky::new(chosen)?.solve(&right))
+    }
+}
+
+fn active_set(
+    problem: &impl Problem,
+    lengths: &[f64],
+    mut passive: Vec<usize>,
+    tolerance: f64,
+) -> Result<DVector<f64>, NnlsError> {
+    let columns = lengths.len();
     let mut x = DVector::zeros(columns);
     passive.retain(|&column| column < columns && lengths[column] > 0.0);
     // The largest part of the first columns whose least squares solution is positive, found by leaving out what is not.
     while !passive.is_empty() {
-        let Some(z) = least_squares(&unit.select_columns(passive.iter()), b) else {
+        let Some(z) = problem.least_squares(&passive) else {
             passive.clear();
             break;
         };
@@ -71,28 +151,22 @@ pub fn nnls_from(
         passive.retain(|_| positive.next().unwrap_or(false));
     }
     // Columns that rounding alone would bring in, until something else has moved.
-    let mut barred: Vec<bool> = lengths.iter().map(|&length| length == 0.0).collect();
+    let without_length = || lengths.iter().map(|&length| length == 0.0).collect();
+    let mut barred: Vec<bool> = without_length();
     let most = 10 * columns + 100;
     for _ in 0..most {
-        let gradient = unit.tr_mul(&(b - &unit * &x));
-        let free = (0..columns).filter(|j| !barred[*j] && !passive.contains(j));
+        let gradient = problem.gradient(&x);
+        // What is in use is above zero.
+        let free = (0..columns).filter(|&j| !barred[j] && x[j] == 0.0);
         let steepest = free.max_by(|&i, &j| gradient[i].total_cmp(&gradient[j]));
         let Some(entering) = steepest.filter(|&j| gradient[j] > tolerance) else {
-            for (value, length) in x
-                .iter_mut()
-                .zip(&lengths)
-                .filter(|(value, _)| **value > 0.0)
-            {
-                *value /= length;
-            }
+            let used = x.iter_mut().zip(lengths).filter(|(x, _)| **x > 0.0);
+            used.for_each(|(x, length)| *x /= length);
             return Ok(x);
         };
         passive.push(entering);
-        if exchange(&unit, b, &mut x, &mut passive) {
-            barred
-                .iter_mut()
-                .zip(&lengths)
-                .for_each(|(barred, &length)| *barred = length == 0.0);
+        if exchange(problem, &mut x, &mut passive) {
+            barred = without_length();
         } else {
             passive.pop();
             barred[entering] = true;
@@ -103,15 +177,10 @@ pub fn nnls_from(
 
 /// Moves x to the least squares solution on the passive columns, putting out those that would become negative. False,
 /// with nothing changed, where the column that came in last cannot take part.
-fn exchange(
-    unit: &DMatrix<f64>,
-    b: &DVector<f64>,
-    x: &mut DVector<f64>,
-    passive: &mut Vec<usize>,
-) -> bool {
+fn exchange(problem: &impl Problem, x: &mut DVector<f64>, passive: &mut Vec<usize>) -> bool {
     let mut entering = passive.last().copied();
     while !passive.is_empty() {
-        let Some(z) = least_squares(&unit.select_columns(passive.iter()), b) else {
+        let Some(z) = problem.least_squares(passive) else {
             return false;
         };
         if entering.take().is_some() && z[z.len() - 1] <= 0.0 {
@@ -263,6 +332,21 @@ mod tests {
             // Random columns can be nearly parallel: then rounding is amplified by the condition of the choice.
             prop_assert!(violation(&matrix, &b, &x) < 1e-9);
             prop_assert!((&b - &matrix * &x).norm() <= exhaustive(&matrix, &b) + 1e-9 * b.norm());
+        }
+
+        #[test]
+        fn products_of_columns_give_the_same_from_wherever_they_start(
+            columns in 1_usize..7,
+            start in prop::collection::vec(0_usize..9, 0..7),
+            numbers in prop::collection::vec(-1.0_f64..1.0, 40 * 7 + 40),
+        ) {
+            let (matrix, b) = problem(40, columns, &numbers);
+            let mut start = start;
+            start.sort_unstable();
+            start.dedup();
+            let x = nnls_from(&matrix, &b, start, 1e-9 * b.norm()).unwrap();
+            // Forty random rows determine their columns: the products lose some digits of sixteen.
+            prop_assert!((x - nnls(&matrix, &b).unwrap()).norm() < 1e-7);
         }
     }
 }

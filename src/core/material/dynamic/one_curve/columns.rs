@@ -84,7 +84,7 @@ impl Columns {
     /// Cholesky factor of the products of these columns.
     pub(super) fn factor(&self, columns: &[usize]) -> Option<Cholesky<f64, Dyn>> {
         let chosen = self.matrix.select_columns(columns);
-        let mut products = chosen.tr_mul(&chosen);
+        let mut products = chosen.transpose() * &chosen;
         for place in 0..products.ncols() {
             products[(place, place)] *= 1.0 + RIDGE;
         }
