@@ -4,7 +4,8 @@
 //! done by Fourier transforms on a grid padded with zeros to at least `2n - 1` cells per direction, which keeps the
 //! periodic images apart and so is exactly free space, to rounding (DC-FFT: Liu, Wang & Liu, *Wear* 243 (2000) 101).
 //!
-//! What makes it fast: only rows that carry load are transformed; each block of columns goes forward, through the multiplication and back while it is in cache; the
+//! What makes it fast: only rows that carry load are transformed, at half length and without touching their padding
+//! (`padded_row`); each block of columns goes forward, through the multiplication and back while it is in cache; the
 //! spectrum of `B` is real because `B` is even, is stored for half the frequencies, and carries the scale of the inverse
 //! transform; only the rows of the grid proper are transformed back.
 //!
@@ -16,6 +17,7 @@
 mod even_column;
 mod length;
 mod mirrored;
+mod padded_row;
 mod period;
 mod periodic_row;
 mod preconditioner;
@@ -34,11 +36,11 @@ use super::layer::{Layer, LayerInfluence};
 use even_column::EvenColumn;
 pub(super) use length::window_length;
 use mirrored::{MirroredColumn, MirroredRow};
+use padded_row::PaddedRow;
 pub use period::PeriodicOperator;
-use periodic_row::PeriodicRow;
 pub use preconditioner::Preconditioner;
 pub use spectral::Scratch;
-use spectral::{Column, Row, SpectralProduct};
+use spectral::{Column, SpectralProduct};
 
 /// Why a convolution cannot be set up or applied.
 #[derive(Debug, Error)]
@@ -284,10 +286,9 @@ fn free_space(
         let (x, y) = (2 * grid.cells_x(), 2 * grid.cells_y());
         return mirrored(grid, &influence, (x, y), |_, value| value);
     }
-    let row = PeriodicRow::new(4 * length::fast_row_half(grid.cells_x()));
+    let row = PaddedRow::new(grid.cells_x());
     let column = EvenColumn::new(length::fast_column(2 * grid.cells_y() - 1));
-    let spectrum =
-        even_column::spectrum(&influence, row.period(), column.length(), |_, value| value)?;
+    let spectrum = even_column::spectrum(&influence, &row, column.length(), |_, value| value)?;
     Ok(SpectralProduct::new(grid, row, column, spectrum))
 }
 

@@ -11,23 +11,30 @@ use realfft::{FftError, RealFftPlanner, RealToComplex};
 use rustfft::{Fft, FftPlanner};
 
 use super::super::influence::Influence;
-use super::spectral::{Column, ZERO};
+use super::spectral::{Column, Row, ZERO};
 
-/// A function of frequency and scaled spectrum in the order in which an [`EvenColumn`] uses it: for every frequency of a real row with
-/// this period, the frequencies `0..=column_length / 2` along the column, scaled so that the inverse transforms need no scaling of
-/// their own.
+/// Rows whose every bin is one frequency.
+pub(super) trait FrequencyPerBin: Row {
+    /// Frequency of a bin as a real even function sees it, and how often it occurs in the sum of the inverse transform as
+    /// this type takes it.
+    fn frequency_and_weight(&self, bin: usize) -> (usize, f64);
+}
+
+/// A function of frequency and scaled spectrum in the order in which an [`EvenColumn`] uses it: for every bin of `row`, the
+/// frequencies `0..=column_length / 2` along the column, scaled so that the inverse transforms need no scaling of their own.
 pub(super) fn spectrum(
     influence: &Influence,
-    row_period: usize,
+    row: &impl FrequencyPerBin,
     column_length: usize,
     function: impl Fn((usize, usize), f64) -> f64,
 ) -> Result<Vec<f64>, FftError> {
-    let mut kernel = Kernel::new(influence, row_period, column_length)?;
+    let mut kernel = Kernel::new(influence, row.period(), column_length)?;
     let mut column = vec![0.0; column_length / 2 + 1];
-    let mut spectrum = Vec::with_capacity((row_period / 2 + 1) * column.len());
-    let scale = 1.0 / (row_period as f64 * column_length as f64);
-    for frequency in 0..=row_period / 2 {
+    let mut spectrum = Vec::with_capacity(row.bins() * column.len());
+    for bin in 0..row.bins() {
+        let (frequency, weight) = row.frequency_and_weight(bin);
         kernel.column(frequency, &mut column)?;
+        let scale = weight / (row.period() as f64 * column_length as f64);
         let values = column.iter().enumerate();
         spectrum.extend(values.map(|(l, value)| function((frequency, l), value * scale)));
     }

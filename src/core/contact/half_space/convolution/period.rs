@@ -44,7 +44,7 @@ impl PeriodicOperator {
                 });
             }
         }
-        let (row, column) = (PeriodicRow::new(nx), EvenColumn::new(ny));
+        let (row, column) = (PeriodicRow::of_period(nx), EvenColumn::new(ny));
         let product = SpectralProduct::new(&grid, row, column, spectrum);
         Self { grid, product }
     }

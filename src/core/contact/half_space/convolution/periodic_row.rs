@@ -1,10 +1,12 @@
-//! Real Fourier transform of a row that is filled up with zeros to its period.
+//! Real Fourier transform of a row that is one period, or a little less, filled up with zeros.
 
 use std::sync::Arc;
 
 use num_complex::Complex;
 use realfft::{ComplexToReal, FftError, RealFftPlanner, RealToComplex};
 
+use super::even_column::FrequencyPerBin;
+use super::length::fast_row_half;
 use super::spectral::Row;
 
 /// Plans for rows of one length. Immutable; buffers are the caller's.
@@ -15,8 +17,13 @@ pub(super) struct PeriodicRow {
 }
 
 impl PeriodicRow {
+    /// Plans for rows of `cells` values, and what it takes for a period of which transforms run fast.
+    pub(super) fn new(cells: usize) -> Self {
+        Self::of_period(2 * fast_row_half(cells))
+    }
+
     /// Plans for rows that repeat after this many values.
-    pub(super) fn new(period: usize) -> Self {
+    pub(super) fn of_period(period: usize) -> Self {
         let mut planner = RealFftPlanner::new();
         Self {
             period,
@@ -24,6 +31,40 @@ impl PeriodicRow {
             inverse: planner.plan_fft_inverse(period),
         }
     }
+
+    /// Transforms a period, which it overwrites, into its frequencies.
+    pub(super) fn bins_of(
+        &self,
+        period: &mut [f64],
+        bins: &mut [Complex<f64>],
+        work: &mut [Complex<f64>],
+    ) -> Result<(), FftError> {
+        let work = &mut work[..self.forward.get_scratch_len()];
+        self.forward.process_with_scratch(period, bins, work)
+    }
+
+    /// Transforms frequencies, which it overwrites, back into a period.
+    pub(super) fn period_of(
+        &self,
+        bins: &mut [Complex<f64>],
+        period: &mut [f64],
+        work: &mut [Complex<f64>],
+    ) -> Result<(), FftError> {
+        // Real by symmetry; the transform refuses what rounding leaves there.
+        bins[0].im = 0.0;
+        if self.period.is_multiple_of(2) {
+            bins[self.period / 2].im = 0.0;
+        }
+        let work = &mut work[..self.inverse.get_scratch_len()];
+        self.inverse.process_with_scratch(bins, period, work)
+    }
+}
+
+/// A row, and zeros beyond it.
+pub(super) fn fill_up(row: &[f64], buffer: &mut [f64]) {
+    let (given, beyond) = buffer.split_at_mut(row.len());
+    given.copy_from_slice(row);
+    beyond.fill(0.0);
 }
 
 impl Row for PeriodicRow {
@@ -51,11 +92,8 @@ impl Row for PeriodicRow {
         buffer: &mut [f64],
         work: &mut [Complex<f64>],
     ) -> Result<(), FftError> {
-        let (given, beyond) = buffer.split_at_mut(row.len());
-        given.copy_from_slice(row);
-        beyond.fill(0.0);
-        let work = &mut work[..self.forward.get_scratch_len()];
-        self.forward.process_with_scratch(buffer, bins, work)
+        fill_up(row, buffer);
+        self.bins_of(buffer, bins, work)
     }
 
     fn inverse(
@@ -65,14 +103,14 @@ impl Row for PeriodicRow {
         buffer: &mut [f64],
         work: &mut [Complex<f64>],
     ) -> Result<(), FftError> {
-        // Real by symmetry; the transform refuses what rounding leaves there.
-        bins[0].im = 0.0;
-        if self.period.is_multiple_of(2) {
-            bins[self.period / 2].im = 0.0;
-        }
-        let work = &mut work[..self.inverse.get_scratch_len()];
-        self.inverse.process_with_scratch(bins, buffer, work)?;
+        self.period_of(bins, buffer, work)?;
         row.copy_from_slice(&buffer[..row.len()]);
         Ok(())
+    }
+}
+
+impl FrequencyPerBin for PeriodicRow {
+    fn frequency_and_weight(&self, bin: usize) -> (usize, f64) {
+        (bin, 1.0)
     }
 }

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::even_column::EvenColumn;
-use super::length::{fast_column, fast_row_half};
+use super::length::fast_column;
 use super::periodic_row::PeriodicRow;
 use super::spectral::{Column, Row, SpectralProduct};
 use super::{ConvolutionError, Influence, Scratch, even_column};
@@ -33,19 +33,19 @@ impl Preconditioner {
         let influence = Influence::new(grid);
         if grid.is_mirrored() {
             let cells = (grid.cells_x(), grid.cells_y());
-            let periods = [cells.0, cells.1].map(|cells| 4 * fast_row_half(cells));
+            let periods = [cells.0, cells.1].map(|cells| 4 * super::length::fast_row_half(cells));
             let softening = Softening::new(grid, periods, layer);
             let inverse = |at, value: f64| (value * softening.factor(at)).recip();
             let product = super::mirrored(grid, &influence, cells, inverse)?;
             return Ok(Self { product });
         }
-        let row = PeriodicRow::new(2 * fast_row_half(grid.cells_x()));
+        let row = PeriodicRow::new(grid.cells_x());
         let column = EvenColumn::new(fast_column(grid.cells_y()));
         let softening = Softening::new(grid, [row.period(), column.length()], layer);
         let cells = row.period() as f64 * column.length() as f64;
         // Scaled like the spectrum it inverts.
         let inverse = |at, value: f64| (value * softening.factor(at) * cells * cells).recip();
-        let spectrum = even_column::spectrum(&influence, row.period(), column.length(), inverse)?;
+        let spectrum = even_column::spectrum(&influence, &row, column.length(), inverse)?;
         let product = SpectralProduct::new(grid, row, column, spectrum);
         Ok(Self { product })
     }
