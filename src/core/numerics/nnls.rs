@@ -1,7 +1,7 @@
 //! Non-negative least squares: the active set method of C. L. Lawson and R. J. Hanson, *Solving Least Squares Problems*,
 //! Prentice-Hall 1974 (SIAM 1995), chapter 23, with a QR factorisation of the columns in use.
 
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// Why no solution was found.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -24,7 +24,7 @@ const GRADIENT_TOLERANCE: f64 = 1e-13;
 /// A column that its predecessors represent to this share of its length is no column of its own.
 const RANK_TOLERANCE: f64 = 1e-13;
 
-/// What is added to the diagonal of the products of unit columns, to keep columns apart that are equal to rounding.
+/// What is added to the diagonal of products of columns, as a share of it: keeps columns apart that are equal to rounding.
 const RIDGE: f64 = 1e-11;
 
 /// The x that minimises |A x - b| with no component negative.
@@ -37,26 +37,43 @@ pub fn nnls(matrix: &DMatrix<f64>, b: &DVector<f64>) -> Result<DVector<f64>, Nnl
     active_set(&Rows { unit, b }, &lengths, Vec::new(), tolerance)
 }
 
-/// The same for a problem that is solved again and again with little change: by the products of the columns (R. Bro and S. de Jong,
-/// J. Chemometrics 11 (1997) 393), from those on that the last solution has in use. A column of unit length is taken in where the
-/// gradient exceeds the tolerance, in the units of b. The products square the condition of the columns: what is lost is far below the
+/// The same from the products `A' A` and `A' b` (R. Bro and S. de Jong, J. Chemometrics 11 (1997) 393), for a problem that is solved again
+/// and again with little change: from those columns on that the last solution has in use. A column is taken in where the gradient of it at
+/// unit length exceeds the tolerance, in the units of b. The products square the condition of the columns: what is lost is far below the
 /// noise of a measurement, and an exchange of columns costs nothing beside the products.
 ///
 /// # Errors
 /// [`NnlsError`].
 pub fn nnls_from(
-    matrix: &DMatrix<f64>,
-    b: &DVector<f64>,
+    products: &DMatrix<f64>,
+    right: &DVector<f64>,
     start: Vec<usize>,
     tolerance: f64,
 ) -> Result<DVector<f64>, NnlsError> {
-    let (unit, lengths) = unit_columns(matrix, b)?;
-    let products = Products {
-        // By blocks, which `tr_mul` does not take.
-        products: unit.transpose() * &unit,
-        right: unit.tr_mul(b),
+    if !products
+        .iter()
+        .chain(right.iter())
+        .all(|value| value.is_finite())
+    {
+        return Err(NnlsError::NotFinite);
+    }
+    let lengths = products.diagonal().map(f64::sqrt);
+    // A column of no length takes no part.
+    let unit = |value: f64, length: f64| if length > 0.0 { value / length } else { 0.0 };
+    let problem = Products {
+        products: products
+            .map_with_location(|i, j, product| unit(unit(product, lengths[i]), lengths[j])),
+        right: right.zip_map(&lengths, unit),
     };
-    active_set(&products, &lengths, start, tolerance)
+    active_set(&problem, lengths.as_slice(), start, tolerance)
+}
+
+/// The Cholesky factor of some of the products of columns.
+pub fn factor(products: &DMatrix<f64>, columns: &[usize]) -> Option<Cholesky<f64, Dyn>> {
+    let ridge = |i: usize, j: usize| if i == j { 1.0 + RIDGE } else { 1.0 };
+    let count = columns.len();
+    let chosen = |i: usize, j: usize| ridge(i, j) * products[(columns[i], columns[j])];
+    Cholesky::new(DMatrix::from_fn(count, count, chosen))
 }
 
 /// Columns of unit length, which make the answer independent of their units, and their lengths.
@@ -120,11 +137,8 @@ impl Problem for Products {
     }
 
     fn least_squares(&self, columns: &[usize]) -> Option<DVector<f64>> {
-        let chosen = DMatrix::from_fn(columns.len(), columns.len(), |i, j| {
-            self.products[(columns[i], columns[j])] + if i == j { RIDGE } else { 0.0 }
-        });
         let right = DVector::from_fn(columns.len(), |i, _| self.right[columns[i]]);
-        Some(Cholesky::new(chosen)?.solve(&right))
+        Some(factor(&self.products, columns)?.solve(&right))
     }
 }
 
@@ -344,7 +358,8 @@ mod tests {
             let mut start = start;
             start.sort_unstable();
             start.dedup();
-            let x = nnls_from(&matrix, &b, start, 1e-9 * b.norm()).unwrap();
+            let (products, right) = (matrix.tr_mul(&matrix), matrix.tr_mul(&b));
+            let x = nnls_from(&products, &right, start, 1e-9 * b.norm()).unwrap();
             // Forty random rows determine their columns: the products lose some digits of sixteen.
             prop_assert!((x - nnls(&matrix, &b).unwrap()).norm() < 1e-7);
         }

@@ -5,16 +5,13 @@ use std::f64::consts::LN_10;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::material::harmonic::Debye;
-use crate::numerics::nnls::nnls_from;
+use crate::numerics::nnls::{self, nnls_from};
 
 /// Distance of the logarithms of the times. Eight per decade: a branch between two is represented to a few tenths of a per cent.
 pub(super) const STEP: f64 = LN_10 / 8.0;
 
 /// In the place of a time: the equilibrium modulus.
 const EQUILIBRIUM: i64 = i64::MIN;
-
-/// Keeps columns that are equal to rounding apart, as a share of their products.
-const RIDGE: f64 = 1e-11;
 
 /// A column is taken in where its gradient exceeds this, in standard deviations of the data.
 const GRADIENT_TOLERANCE: f64 = 1e-5;
@@ -24,6 +21,8 @@ pub(super) struct Columns {
     /// Steps of the first time.
     first_time: i64,
     pub(super) matrix: DMatrix<f64>,
+    /// Of the columns with one another.
+    products: DMatrix<f64>,
     /// Pa.
     pub(super) moduli: DVector<f64>,
 }
@@ -43,12 +42,16 @@ impl Columns {
                 .filter(|&column| column > 0),
         };
         let start = times.iter().filter_map(column).collect();
+        // By blocks, which `tr_mul` does not take.
+        let products = matrix.transpose() * &matrix;
+        let right = matrix.tr_mul(values);
         // Of what is no number nothing is represented.
-        let moduli = nnls_from(&matrix, values, start, GRADIENT_TOLERANCE)
+        let moduli = nnls_from(&products, &right, start, GRADIENT_TOLERANCE)
             .unwrap_or_else(|_| DVector::zeros(matrix.ncols()));
         Self {
             first_time,
             matrix,
+            products,
             moduli,
         }
     }
@@ -83,12 +86,7 @@ impl Columns {
 
     /// Cholesky factor of the products of these columns.
     pub(super) fn factor(&self, columns: &[usize]) -> Option<Cholesky<f64, Dyn>> {
-        let chosen = self.matrix.select_columns(columns);
-        let mut products = chosen.transpose() * &chosen;
-        for place in 0..products.ncols() {
-            products[(place, place)] *= 1.0 + RIDGE;
-        }
-        Cholesky::new(products)
+        nnls::factor(&self.products, columns)
     }
 
     /// Storage and loss modulus (Pa) at a reduced angular frequency (natural logarithm), and their derivatives by it.
