@@ -10,7 +10,9 @@ use crate::engine::EngineKind;
 use crate::material::Material;
 use crate::material::fit::{Fit, FitReport};
 use crate::report::comparison::Comparison;
+use crate::report::machine;
 use crate::report::material::MaterialReport;
+use crate::report::table::Cell;
 use crate::sweep::case::Setup;
 use crate::sweep::plan::{AxisValues, SweepPlan, resolved};
 use crate::sweep::share::cost::Cost;
@@ -32,10 +34,7 @@ pub(super) fn file(path: &Path) -> Result<Value, Failure> {
 fn varied(plan: &SweepPlan, values: &AxisValues) -> Value {
     let over = plan.axes.iter().flat_map(|axes| &axes.over);
     let values = over.zip(values.all());
-    let told = values.map(|(varied, value)| match varied.block_name(*value) {
-        Some(name) => json!(name),
-        None => json!(value.number()),
-    });
+    let told = values.map(|(varied, value)| machine::value(Cell::of_axis(varied, Some(*value))));
     let mut told: Vec<_> = told.collect();
     match told.len() {
         0 | 1 => told.pop().unwrap_or_default(),

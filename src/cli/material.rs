@@ -149,12 +149,7 @@ pub(super) fn load(name: &str) -> Result<(Material, String, Vec<PathBuf>), Failu
     let material = material_block::read(&mut root, DirectSum::Fitted);
     let material = problems.into_result(material)?.value;
     let title = material.name().unwrap_or("Material").to_owned();
-    let fit = material
-        .origin
-        .fit
-        .as_ref()
-        .map(report::fit::text)
-        .unwrap_or_default();
+    let fit = report::fit::fitted(&material).unwrap_or_default();
     let model = report::fit::approximation(&material);
     let head = format!("{title} (from {name})\n{fit}{model}");
     Ok((material, head, document.files()))

@@ -108,12 +108,7 @@ pub(super) fn unless_written(flags: &FitFlags, block: &str) -> String {
 
 /// The material block of a sweep file, ready to paste, every number exact.
 fn block(data: &Path, material: &Material) -> String {
-    let fit = material
-        .origin
-        .fit
-        .as_ref()
-        .map(report::fit::text)
-        .unwrap_or_default();
+    let fit = report::fit::fitted(material).unwrap_or_default();
     format!(
         "# From {}\n{}{}",
         data.display().to_string().escape_debug(),

@@ -218,7 +218,7 @@ impl<'a> Job<'a> {
         let mut text = format!("{}\n\n", plan.title);
         for (_, condition) in plan.each_of(Block::Material) {
             let material = &condition.contact.material;
-            let fit = material.origin.fit.as_ref().map(report::fit::text);
+            let fit = report::fit::fitted(material);
             let known = material.origin.approximation.as_ref();
             let approximation = known.map(|_| report::fit::approximation(material));
             for part in fit.into_iter().chain(approximation) {

@@ -13,6 +13,11 @@ pub fn text(report: &FitReport) -> String {
     report.lines().map(wrapped_line).collect()
 }
 
+/// The same of a material, where it was fitted.
+pub fn fitted(material: &Material) -> Option<String> {
+    material.origin.fit.as_ref().map(text)
+}
+
 /// How well a series stands for the model that was given; empty where none was. Ends with a line end.
 pub fn approximation(material: &Material) -> String {
     let known = material.origin.approximation.as_ref();

@@ -34,7 +34,8 @@ pub fn object<'a>(cells: impl Iterator<Item = (&'a str, Cell)>) -> Value {
     object.into()
 }
 
-fn value(cell: Cell) -> Value {
+/// One cell.
+pub fn value(cell: Cell) -> Value {
     match cell {
         Cell::Absent => Value::Null,
         Cell::Number(number) => number.into(),

@@ -21,7 +21,7 @@ pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
         BodyMaterial::Series(material) if material.origin.approximation.is_some() => {
             Some(fit::approximation(material))
         }
-        BodyMaterial::Series(material) => material.origin.fit.as_ref().map(fit::text),
+        BodyMaterial::Series(material) => fit::fitted(material),
         BodyMaterial::Samples(sampled) => Some(samples::text(sampled, plan.drive.duration_s())),
     };
     if let Some(material) = material {

@@ -46,10 +46,6 @@ const COARSEST: f64 = 0.01;
 /// Values whose digits are looked at.
 const ENOUGH_VALUES: usize = 1000;
 
-/// Decades without a sample that are worth a warning, and decades of data that are enough not to get one.
-const WIDE_GAP: f64 = 1.0;
-const ENOUGH_DECADES: f64 = 1.0;
-
 /// Why samples are no creep compliance or relaxation modulus. `row` counts samples from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -266,7 +262,7 @@ impl Tabulated {
         let groups = Groups::of(&times_s, &values);
         course::check(function, &times_s, &values, &groups)?;
         let mut warnings: Vec<_> = course::noise(function, &values).into_iter().collect();
-        warnings.extend(coverage(&times_s));
+        warnings.extend(course::coverage(&times_s));
         Ok(Self {
             function,
             kind,
@@ -438,26 +434,6 @@ fn isotonic(function: MaterialFunction, values: &[f64], weights: &[f64]) -> Vec<
         MaterialFunction::Creep => before > after,
         MaterialFunction::Relaxation => before < after,
     })
-}
-
-/// Gaps and shortness.
-fn coverage(times_s: &[f64]) -> Vec<TableWarning> {
-    let positive = &times_s[times_s.partition_point(|&t| t <= 0.0)..];
-    let wide = |from_s: f64, to_s: f64| (to_s / from_s).log10() > WIDE_GAP * (1.0 + 1e-12);
-    let gaps = positive
-        .windows(2)
-        .filter(|pair| wide(pair[0], pair[1]))
-        .map(|pair| TableWarning::Gap {
-            from_s: pair[0],
-            to_s: pair[1],
-        });
-    let mut warnings: Vec<_> = gaps.collect();
-    if let (Some(&from_s), Some(&to_s)) = (positive.first(), positive.last())
-        && (to_s / from_s).log10() < ENOUGH_DECADES * (1.0 - 1e-12)
-    {
-        warnings.push(TableWarning::Short { from_s, to_s });
-    }
-    warnings
 }
 
 /// The creep compliance that belongs to a relaxation modulus which never rises. It never falls: what was put on so far holds

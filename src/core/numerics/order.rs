@@ -15,8 +15,9 @@ pub fn median(values: &[f64]) -> f64 {
 /// The median, of an even number of values the upper one of the two in the middle; `None` of nothing.
 pub fn upper_median(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
+    let middle = values.len() / 2;
+    let is_any = !values.is_empty();
+    is_any.then(|| *values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
 /// The monotone sequence nearest to the values, each of this weight, by pooling those that are out of order (M. Ayer and others, Ann.

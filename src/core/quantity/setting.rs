@@ -161,13 +161,6 @@ impl Table {
         self
     }
 
-    /// With this setting before the others.
-    #[must_use]
-    pub fn headed(mut self, key: &'static str, value: impl Into<Value>) -> Self {
-        self.settings.insert(0, Setting::new(key, value));
-        self
-    }
-
     /// The table, where it has any setting.
     pub fn unless_empty(self) -> Option<Self> {
         (!self.settings.is_empty()).then_some(self)

@@ -118,18 +118,17 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
         error_bars,
     } = output;
     let material = &contact.material;
+    let is_on_springs = solver.engine == EngineKind::Axisymmetric;
     let solver = solver_table(solver, contact.indenter.as_ref());
-    let engine = plan.solver.engine;
     let contact = contact.blocks(material.indenter_material().map(indenter_material_text));
     let step = step_s.map(|step_s| Value::Quantity(step_s, Dimension::Time));
     let time = Table::new("time").with_some("step", step).unless_empty();
     let times = |times_s: &[f64]| Value::Quantities(times_s.to_vec(), Dimension::Time);
-    let has_own_cells = engine == EngineKind::HalfSpace;
     let output = Table::new("output")
         .with("profiles_at", times(profiles_at_s))
         .with("fields_at", times(fields_at_s))
         .with("error_bars", *error_bars)
-        .with_some("field_cells", (!has_own_cells).then_some(*field_cells));
+        .with_some("field_cells", is_on_springs.then_some(*field_cells));
     let blocks = [
         material.text(),
         contact.layer,

@@ -1,4 +1,4 @@
-//! The course of samples: noise told from what no passive material does, by the rules in [`super`].
+//! The course of samples: noise told from what no passive material does, by the rules in [`super`]; and the times that they leave out.
 
 use super::{Groups, TableError, TableWarning, rounding};
 use crate::material::MaterialFunction;
@@ -25,6 +25,10 @@ const RUN: usize = 5;
 
 /// Deviations too few for their median to mean anything.
 const FEW: usize = 10;
+
+/// Decades without a sample that are worth a warning, and decades of data that are enough not to get one.
+const WIDE_GAP: f64 = 1.0;
+const ENOUGH_DECADES: f64 = 1.0;
 
 /// ln C or -ln E: what must not fall.
 fn rising(function: MaterialFunction, values: &[f64]) -> Vec<f64> {
@@ -148,4 +152,24 @@ fn scatter(times_s: &[f64], values: &[f64]) -> (f64, bool) {
     }
     // The median of the magnitude of a normal variable is 0.6745 of its standard deviation.
     (median(&deviations) / 0.6745, false)
+}
+
+/// Gaps and shortness.
+pub(super) fn coverage(times_s: &[f64]) -> Vec<TableWarning> {
+    let positive = &times_s[times_s.partition_point(|&t| t <= 0.0)..];
+    let wide = |from_s: f64, to_s: f64| (to_s / from_s).log10() > WIDE_GAP * (1.0 + 1e-12);
+    let gaps = positive
+        .windows(2)
+        .filter(|pair| wide(pair[0], pair[1]))
+        .map(|pair| TableWarning::Gap {
+            from_s: pair[0],
+            to_s: pair[1],
+        });
+    let mut warnings: Vec<_> = gaps.collect();
+    if let (Some(&from_s), Some(&to_s)) = (positive.first(), positive.last())
+        && (to_s / from_s).log10() < ENOUGH_DECADES * (1.0 - 1e-12)
+    {
+        warnings.push(TableWarning::Short { from_s, to_s });
+    }
+    warnings
 }

@@ -121,10 +121,15 @@ pub(crate) fn cycle_table(cycle: &CyclePlan) -> Table {
 
 /// The `[indenter.material]` block.
 pub(crate) fn indenter_material_text(material: &Material) -> String {
+    indenter_material(material).toml_below("indenter")
+}
+
+/// What an indenter is made of, as a table below it.
+fn indenter_material(material: &Material) -> Table {
     // Only the material of the body has alternatives in a file.
     let mut own = material.clone();
     own.origin.alternatives.clear();
-    material_table(&own).toml_below("indenter")
+    material_table(&own)
 }
 
 /// The material of a block under these conditions: at each temperature, where that varies.
@@ -150,11 +155,8 @@ fn listed_blocks(plan: &SweepPlan, axis: usize, varied: &Varied) -> Vec<String> 
         let first = &under().next()?.contact;
         let block = match varied.block {
             Block::Indenter => {
-                let mut own = first.material.indenter_material().cloned();
-                own.iter_mut()
-                    .for_each(|own| own.origin.alternatives.clear());
                 let named = Table::new("indenter").with("name", &**name);
-                let own = own.as_ref().map(material_table);
+                let own = first.material.indenter_material().map(indenter_material);
                 named.and(shape(first.indenter.as_ref())).above(own)
             }
             _ => material_of(&first.material, under(), plan.axes.as_ref()),

@@ -104,9 +104,6 @@ pub fn brackets_within<E>(
     let mut omegas = logarithmic(first, middle, PER_DECADE, usize::MAX);
     omegas.pop();
     omegas.extend(logarithmic(middle, last, PER_DECADE, usize::MAX));
-    // The end as it is, without the rounding of a power.
-    omegas.pop();
-    omegas.push(last);
     let computed = losses(&omegas)?;
     let points = omegas.into_iter().zip(computed);
     let curve: Vec<Point> = points.map(|(omega, (loss, _))| (omega, loss)).collect();
