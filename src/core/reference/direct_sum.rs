@@ -67,7 +67,7 @@ mod tests {
 
     use super::*;
     use crate::contact::half_space::convolution::Convolution;
-    use crate::contact::half_space::influence::rectangle_displacement_m;
+    use crate::contact::half_space::love::rectangle_displacement_m;
 
     /// Rounding of two forward and two inverse transforms of up to 2^14 points: some units in the last place of the
     /// largest displacement. 1e-13 is what is promised; this is what holds, with room for other processors.

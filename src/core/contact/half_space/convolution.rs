@@ -356,7 +356,7 @@ impl fmt::Debug for Convolution {
 mod tests {
     use std::f64::consts::PI;
 
-    use super::super::influence::rectangle_displacement_m;
+    use super::super::love::rectangle_displacement_m;
     use super::*;
 
     /// Odd, even, prime, square, flat and tall grids, with square and oblong cells.

@@ -34,7 +34,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use serde::{Deserialize, Serialize};
 
-use super::influence::{GAUSS_8, quadrature, rectangle_displacement_m, rule_at};
+use super::love::{GAUSS_8, quadrature, rectangle_displacement_m, rule_at};
 
 /// How a layer lies on its rigid base.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -8,6 +8,7 @@ pub mod grid;
 pub mod influence;
 mod instant;
 pub mod layer;
+pub mod love;
 pub mod periodic;
 mod polonsky_keer;
 mod solver;
