@@ -7,7 +7,7 @@
 //!
 //! Where T/lambda is small beside the tolerance, rounding in the memory makes that quotient say nothing. Such a branch hardly moves
 //! within a period, and its memory in the stabilised cycle is known from the pressure of the cycle: m* = n/(1 - exp(-T/lambda)), with n
-//! what the cycle makes of no memory at all ([`CycleSums`](crate::history::CycleSums)), which is the mean of the pressure but for terms
+//! what the cycle makes of no memory at all ([`CycleSums`]), which is the mean of the pressure but for terms
 //! of order T/lambda. What is missing is the difference from that. Both ways are the same but for rounding, since the sums have
 //! the weights of the time rule.
 

@@ -8,7 +8,7 @@
 //! directions are projected as the preconditioner's own metric asks for.
 //!
 //! Changes of the contact are not proved to end, so the number of steps without progress is bounded; what is then left to do
-//! is done by [`super::polonsky_keer`], which descends.
+//! is done by [`polonsky_keer`](super::super::polonsky_keer), which descends.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
