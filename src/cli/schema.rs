@@ -22,7 +22,7 @@ pub(super) struct SchemaFlags {
 }
 
 fn kinds() -> impl TypedValueParser<Value = FileKind> {
-    let names = PossibleValuesParser::new(FileKind::NAMES.map(|(name, _)| name));
+    let names = PossibleValuesParser::new(FileKind::WORDS.iter().copied());
     names.try_map(|name| {
         let found = FileKind::NAMES.iter().find(|(known, _)| *known == name);
         found

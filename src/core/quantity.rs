@@ -15,8 +15,10 @@
 //! # Ok::<(), contact_dma::quantity::QuantityError>(())
 //! ```
 
+pub mod block;
 mod error;
 mod frequency;
+pub mod key;
 pub mod setting;
 mod units;
 

@@ -1,9 +1,9 @@
 //! The `[adhesion]` block: a sphere that the surface attracts, under a prescribed load.
 
 use super::diagnostic::{Location, Problems};
+use super::document::block;
 use super::document::reader::TableReader;
 use super::keys;
-use super::keys::adhesion::{EQUILIBRIUM_DISTANCE, WORK};
 use crate::drive::{Control, DriveError, HarmonicDrive};
 use crate::indenter::Indenter;
 use crate::sweep::plan::adhesion::AdhesionPlan;
@@ -18,13 +18,8 @@ pub(super) struct Attraction<'a> {
 /// Reads the block, where there is one; `None` where a problem was reported.
 pub(super) fn read<'a>(root: &mut TableReader<'a>) -> Option<Option<Attraction<'a>>> {
     let (place, problems) = (root.key_location(&keys::ADHESION), root.problems());
-    root.table_or(&keys::ADHESION, None, |mut table| {
-        let (work, distance) = (table.value(&WORK), table.value(&EQUILIBRIUM_DISTANCE));
-        table.finish();
-        let adhesion = AdhesionPlan {
-            work_j_per_m2: work?,
-            equilibrium_distance_m: distance?,
-        };
+    root.table_or(&keys::ADHESION, None, |table| {
+        let adhesion = block::read(table, None)?;
         Some(Some(Attraction {
             adhesion,
             place: place?,

@@ -10,7 +10,7 @@ use serde_json::{Map, Value as Json, json};
 
 use super::diagnostic::{Diagnostic, Diagnostics, Problems};
 use super::document::Located;
-use super::document::kind::{Array, Describe, Kind, Scalar, Spot, Text, list};
+use super::document::kind::{Array, Describe, Kind, Number, Spot, Text, list};
 use super::document::reader::{in_backticks, join};
 use super::document::row::{AnyRow, Rows};
 use super::document::similar::similar;
@@ -39,26 +39,26 @@ pub(crate) struct AxisOf {
 const NAME_LENGTH: usize = 60;
 
 /// A key that has a number.
-struct Number {
+struct AxisNumber {
     /// From the block on, items of lists without their places: `relaxation.branches[].time`.
     key: String,
     row: &'static dyn AnyRow,
-    scalar: Scalar,
+    scalar: Number,
 }
 
 /// Every key of a block that has a number, those of the tables within it too.
-fn numbers(rows: &'static Rows, controlled: Dimension) -> Vec<Number> {
+fn numbers(rows: &'static Rows, controlled: Dimension) -> Vec<AxisNumber> {
     let mut numbers = Vec::new();
     add_numbers(rows, "", controlled, &mut numbers);
     numbers
 }
 
-fn add_numbers(rows: &'static Rows, path: &str, controlled: Dimension, to: &mut Vec<Number>) {
+fn add_numbers(rows: &'static Rows, path: &str, controlled: Dimension, to: &mut Vec<AxisNumber>) {
     for row in rows.all() {
         let key = join(path, row.name());
-        match (row.kind().scalar(controlled), row.kind().rows()) {
+        match (row.kind().number(controlled), row.kind().rows()) {
             (Some(_), _) if to.iter().any(|number| number.key == key) => {}
-            (Some(scalar), _) => to.push(Number { key, row, scalar }),
+            (Some(scalar), _) => to.push(AxisNumber { key, row, scalar }),
             (None, Some(rows)) if may_vary_within(rows) => {
                 let items = if row.kind().is_list() { "[]" } else { "" };
                 add_numbers(rows, &format!("{key}{items}"), controlled, to);
@@ -75,7 +75,7 @@ fn may_vary_within(rows: &'static Rows) -> bool {
 }
 
 /// The name of the definition of such numbers as an axis: `over-a-time-above-zero`.
-fn of_kind(scalar: &Scalar) -> String {
+fn of_kind(scalar: &Number) -> String {
     format!("over-{}", scalar.expected().replace(' ', "-"))
 }
 
@@ -145,7 +145,7 @@ impl AxisOf {
         keys.into_iter().map(pattern).collect()
     }
 
-    fn nested(&self) -> impl Iterator<Item = Number> {
+    fn nested(&self) -> impl Iterator<Item = AxisNumber> {
         let numbers = numbers(self.rows, self.controlled).into_iter();
         numbers.filter(|number| number.key.contains('.'))
     }
@@ -277,7 +277,7 @@ impl AxisOf {
     /// The axis of a key, or those of the keys of the table that is given there: `zener = { time = [...] }` is `zener.time = [...]`.
     fn add_swept(
         &self,
-        numbers: &[Number],
+        numbers: &[AxisNumber],
         key: &str,
         entry: &Entry,
         spot: &Spot<'_>,
@@ -313,12 +313,12 @@ impl AxisOf {
 
     fn swept(
         &self,
-        number: &Number,
+        number: &AxisNumber,
         key: &str,
         entry: &Entry,
         spot: &Spot<'_>,
     ) -> Result<Swept, Diagnostics> {
-        let Number { row, scalar, .. } = number;
+        let AxisNumber { row, scalar, .. } = number;
         let path = join(spot.path, key);
         let spot = Spot {
             path: &path,
@@ -342,7 +342,7 @@ impl AxisOf {
                     true => Cow::Owned(key.to_owned()),
                     false => Cow::Borrowed(row.name()),
                 },
-                scalar.dimension(),
+                scalar.dimension,
             ),
             key_location: entry.key.clone(),
             values: spot.located(points, &entry.node),
@@ -478,7 +478,7 @@ impl AxisOf {
     }
 
     /// A key that no number stands under.
-    fn no_number(&self, path: &str, entry: &Entry, numbers: &[Number]) -> Diagnostic {
+    fn no_number(&self, path: &str, entry: &Entry, numbers: &[AxisNumber]) -> Diagnostic {
         let names: Vec<&str> = numbers.iter().map(|number| number.key.as_str()).collect();
         let block = self.block.name();
         let problem = Diagnostic::at(&entry.key, format!("`{path}` cannot be an axis"))

@@ -1,8 +1,9 @@
 //! What makes a contact besides material, shape and drive, in files without axes: what the indenter is made of, a layer, adhesion.
 
 use super::adhesion_block::{self, Attraction};
+use super::document::block;
 use super::document::reader::TableReader;
-use super::{indenter_block, keys, layer_block};
+use super::{indenter_block, keys, solver_block};
 use crate::drive::Control;
 use crate::indenter::Indenter;
 use crate::material::Material;
@@ -21,9 +22,9 @@ pub(super) struct Bodies<'a> {
 /// Reads the blocks; `None` where a problem was reported.
 pub(super) fn read<'a>(root: &mut TableReader<'a>) -> Option<Bodies<'a>> {
     let indenter_material = indenter_block::material(root);
-    let layer = root.table_or(&keys::LAYER, None, |t| layer_block::read(t).map(Some));
+    let layer = root.table_or(&keys::LAYER, None, |t| block::read(t, None).map(Some));
     let has_indenter_material = indenter_material.as_ref().is_some_and(Option::is_some);
-    layer_block::refuse_second_body(root, has_indenter_material);
+    solver_block::refuse_second_body(root, has_indenter_material);
     let attraction = adhesion_block::read(root);
     Some(Bodies {
         indenter_material: indenter_material?.map(|body| body.value),

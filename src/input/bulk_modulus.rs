@@ -3,7 +3,7 @@
 use serde_json::{Value as Json, json};
 
 use super::diagnostic::{Diagnostic, Diagnostics};
-use super::document::kind::{Describe, Kind, Scalar, Spot, quantity};
+use super::document::kind::{Describe, Kind, Number, Spot, quantity};
 use super::document::row::Rows;
 use super::document::tree::{Node, Value};
 use super::keys::material::{BRANCH_MODULUS, BULK_BRANCHES, BULK_EQUILIBRIUM, BULK_KEYS};
@@ -13,7 +13,7 @@ use super::material_temperature::prony;
 use crate::material::{MaterialError, Relaxation, RelaxationBranch};
 use crate::quantity::Dimension;
 
-const CONSTANT: Scalar = quantity(Dimension::Stress).above_zero();
+const CONSTANT: Number = quantity(Dimension::Stress).above_zero();
 
 static SERIES: Rows = table(
     " K(t) = equilibrium + sum of modulus exp(-t / time).",
@@ -40,8 +40,8 @@ impl Describe for BulkModulus {
         Some(&SERIES)
     }
 
-    fn scalar(&self, controlled: Dimension) -> Option<Scalar> {
-        CONSTANT.scalar(controlled)
+    fn number(&self, controlled: Dimension) -> Option<Number> {
+        CONSTANT.number(controlled)
     }
 }
 

@@ -9,8 +9,8 @@
 //! - `TableReader::finish`, called once all keys were asked for, reports the keys nobody asked for. Do not
 //!   call it where a wrong value leaves open which keys belong to the table.
 
+pub(crate) mod block;
 pub(crate) mod kind;
-pub(crate) mod limits;
 pub(crate) mod reader;
 pub(crate) mod row;
 pub(super) mod similar;

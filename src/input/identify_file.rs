@@ -5,8 +5,8 @@ use std::path::Path;
 use super::bodies_block::Bodies;
 use super::data_file;
 use super::diagnostic::Diagnostics;
-use super::document::Document;
 use super::document::reader::TableReader;
+use super::document::{Document, block};
 use super::given::Given;
 use super::harmonic_block::Pressed;
 use super::keys;
@@ -15,10 +15,9 @@ use super::keys::identify::{
     APPROACH_ZERO, DATA, IDENTIFY, IDENTIFY_BRANCHES, KNOWN_MATERIAL, MEASURED_DRIVE, MODEL_CYCLE,
 };
 use super::keys::material::BULK_MODULUS;
-use super::sweep_file::cycle;
 use super::{
-    bodies_block, harmonic_block, layer_block, material_block, measured_history, measured_table,
-    segments_block,
+    bodies_block, harmonic_block, material_block, measured_history, measured_table, segments_block,
+    solver_block,
 };
 use crate::identify::data::{Measurements, TableColumns};
 use crate::identify::{ApproachZero, Driven, IdentifyPlan, Sought};
@@ -51,11 +50,11 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<IdentifyPlan, Dia
         let drive = drive.and_then(|t| driven(t, bodies.as_ref(), indenter.as_deref()));
         let measured = root.table(&IDENTIFY);
         let measured = measured.and_then(|t| measured_block(t, drive.as_ref()));
-        let cycle = root.table_or(&MODEL_CYCLE, IdentifyPlan::CYCLE, cycle);
+        let cycle = root.table_or(&MODEL_CYCLE, IdentifyPlan::CYCLE, |t| block::read(t, None));
         let layer = bodies.as_ref().and_then(|bodies| bodies.layer);
         let default = indenter.as_deref();
         let default = default.map(|indenter| IdentifyPlan::solver(indenter, layer.is_some()));
-        let solver = layer_block::solver(root, layer.is_some(), default.unwrap_or_default());
+        let solver = solver_block::read(root, layer.is_some(), default.unwrap_or_default());
         let measured = measured?;
         let bodies = bodies?;
         Some(IdentifyPlan {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::data_file;
 use super::diagnostic::Diagnostics;
-use super::document::kind::{Describe, Scalar};
+use super::document::kind::{Describe, Number};
 use super::document::reader::TableReader;
 use super::document::row::{Required, Row};
 use super::document::{Located, plain};
@@ -118,7 +118,7 @@ impl Block<'_> {
     /// A shape made of one number.
     fn single<S: Indenter + 'static>(
         &mut self,
-        row: &Row<Scalar, Required>,
+        row: &Row<Number, Required>,
         make: fn(f64) -> Result<S, IndenterError>,
     ) -> Made {
         let size = self.0.read(row)?;

@@ -35,7 +35,7 @@ fn section(
     known.push(rows);
     // Writing to a String cannot fail.
     let _ = write!(text, "### {heading}\n\n{}\n\n", rows.means.trim());
-    list(rows.keys, text);
+    list(&rows.own(), text);
     let branches = rows.branches();
     for branch in &branches {
         let _ = write!(text, "{}\n\n", introduction(branch));

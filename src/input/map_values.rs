@@ -3,6 +3,7 @@
 
 use crate::indenter::{HeightMap, IndenterError, MapEdge, MapQuantity, Setting};
 use crate::numerics::order::upper_median;
+use contact_dma_core::words;
 
 /// The median slope of a map above which it is no surface in contact. Of rough surfaces, paraboloids, punches with walls and maps
 /// with 5 % of bad points the median was at most 0.6 (a cone 30 degrees from flat); the same heights in micrometres read as metres
@@ -20,24 +21,18 @@ pub(crate) const HEIGHT_UNITS: [(&str, f64); 6] = [
     ("pm", 1e12),
 ];
 
-/// What is subtracted from the values of a map before they count.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum MapLevel {
-    None,
-    /// Their mean, which leaves the gap as it is: that counts from the point that touches first.
-    Mean,
-    /// The plane through them by least squares: the tilt of the instrument.
-    Plane,
+words! {
+    /// What is subtracted from the values of a map before they count.
+    pub(crate) enum MapLevel {
+        None = "none",
+        /// Their mean, which leaves the gap as it is: that counts from the point that touches first.
+        Mean = "mean",
+        /// The plane through them by least squares: the tilt of the instrument.
+        Plane = "plane",
+    }
 }
 
 impl MapLevel {
-    /// Names as written in a sweep file.
-    pub(crate) const NAMES: [(&'static str, Self); 3] = [
-        ("none", Self::None),
-        ("mean", Self::Mean),
-        ("plane", Self::Plane),
-    ];
-
     /// Subtracts it from values given row by row, `cells_x` in a row.
     pub(super) fn subtract(self, cells_x: usize, values: &mut [f64]) {
         let count = values.len() as f64;
@@ -101,8 +96,12 @@ impl MapReading {
     pub(super) fn parameter(&self, own: Setting) -> Option<Setting> {
         match &*own.key {
             "spacing" | "height_unit" if self.gives_places => None,
-            "height_unit" => Some(Setting::choice(own.key, &HEIGHT_UNITS, self.unit_per_m)),
-            "level" => Some(Setting::choice(own.key, &MapLevel::NAMES, self.level)),
+            "height_unit" => {
+                let mut units = HEIGHT_UNITS.iter();
+                let unit = units.find(|(_, per_m)| *per_m == self.unit_per_m)?;
+                Some(Setting::new(own.key, unit.0))
+            }
+            "level" => Some(Setting::new(own.key, self.level.name())),
             _ => Some(own),
         }
     }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::diagnostic::Location;
 use super::document::Located;
-use super::document::kind::{Scalar, Table, Tables};
+use super::document::kind::{Number, Table, Tables};
 use super::document::reader::TableReader;
 use super::document::row::{AnyRow, Optional, Required, Row};
 use super::keys;
@@ -387,7 +387,7 @@ fn alternatives<T>(
 }
 
 /// A modulus and a time.
-fn element(table: &mut TableReader<'_>, modulus: &Row<Scalar, Required>) -> Option<(f64, f64)> {
+fn element(table: &mut TableReader<'_>, modulus: &Row<Number, Required>) -> Option<(f64, f64)> {
     let (modulus_pa, time_s) = (table.value(modulus), table.value(&ELEMENT_TIME));
     modulus_pa.zip(time_s)
 }
@@ -414,7 +414,7 @@ fn creep(table: &mut TableReader<'_>) -> Option<Result<Creep, MaterialError>> {
 pub(super) fn branches(
     table: &mut TableReader<'_>,
     branches: &Row<Tables, Required>,
-    strength: &Row<Scalar, Required>,
+    strength: &Row<Number, Required>,
 ) -> Option<Vec<(f64, f64)>> {
     let branches = table.tables(branches, |mut branch| {
         let (strength, time_s) = (branch.value(strength), branch.value(&BRANCH_TIME));

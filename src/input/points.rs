@@ -3,7 +3,7 @@
 use serde_json::{Value as Json, json};
 
 use super::diagnostic::{Diagnostic, Diagnostics};
-use super::document::kind::{Array, Describe, Kind, Scalar, Spot, list};
+use super::document::kind::{Array, Describe, Kind, Number, Spot, list};
 use super::document::plain;
 use super::document::reader::TableReader;
 use super::document::row::{Row, Rows};
@@ -11,17 +11,16 @@ use super::document::tree::{Node, Value};
 use super::keys::drive::{FROM, POINTS, RANGE_KEYS, SPACING, TO};
 use super::keys::table;
 use crate::sweep::plan::SweepPlan;
+use contact_dma_core::words;
 
 pub(super) const MOST_POINTS: usize = SweepPlan::MAX_POINTS;
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Spacing {
-    Logarithmic,
-    Linear,
+words! {
+    pub(crate) enum Spacing {
+        Logarithmic = "log",
+        Linear = "linear",
+    }
 }
-
-pub(super) const SPACINGS: [(&str, Spacing); 2] =
-    [("log", Spacing::Logarithmic), ("linear", Spacing::Linear)];
 
 static RANGE: Rows = table(
     " A range in place of a list; `from` and `to` are what an entry of the list would be.",
@@ -29,7 +28,7 @@ static RANGE: Rows = table(
 );
 
 /// Points of this kind, ascending, each once.
-pub(crate) struct Points(pub(crate) Scalar);
+pub(crate) struct Points(pub(crate) Number);
 
 impl Describe for Points {
     fn expected(&self) -> String {
@@ -89,7 +88,7 @@ impl Kind for Points {
 impl Points {
     fn range(&self, mut table: TableReader<'_>) -> Option<Vec<f64>> {
         let problems = table.problems();
-        let end = |row: &Row<Scalar, _>| Row {
+        let end = |row: &Row<Number, _>| Row {
             kind: self.0,
             ..*row
         };

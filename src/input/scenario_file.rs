@@ -1,16 +1,14 @@
 //! Scenario files: from a document to a finished plan of one drive history.
 
 use super::diagnostic::{Diagnostics, Problems};
-use super::document::kind::{Array, Scalar};
 use super::document::reader::TableReader;
-use super::document::row::{Optional, Row};
-use super::document::{Document, Located, plain};
+use super::document::{Document, Located, block};
 use super::figures_block::{self, Figures};
 use super::given::Given;
 use super::keys;
-use super::keys::settings::{FIELD_CELLS, FIELDS_AT, OUTPUT_ERROR_BARS, PROFILES_AT, TIME_STEP};
+use super::keys::settings::TIME_STEP;
 use super::material_table::DirectSum;
-use super::{bodies_block, layer_block, material_block, segments_block};
+use super::{bodies_block, material_block, segments_block, solver_block};
 use crate::drive::SegmentedDrive;
 use crate::engine::{EngineKind, SolverPlan};
 use crate::figures::elastic::ElasticScale;
@@ -57,7 +55,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Dia
         let default = indenter
             .as_deref()
             .map(|indenter| SolverPlan::of(indenter, layer.is_some()));
-        let solver = layer_block::solver(root, layer.is_some(), default.unwrap_or_default());
+        let solver = solver_block::read(root, layer.is_some(), default.unwrap_or_default());
         let output = root.table_or(&keys::OUTPUT, OutputPlan::default(), |t| {
             output(t, drive.as_ref(), solver.as_ref())
         });
@@ -116,13 +114,10 @@ fn output(
     solver: Option<&SolverPlan>,
 ) -> Option<OutputPlan> {
     let problems = table.problems();
-    let profiles = times(&mut table, &PROFILES_AT, drive);
-    let fields = times(&mut table, &FIELDS_AT, drive);
-    let place = table.key_location(&FIELD_CELLS);
-    let field_cells = table.value(&FIELD_CELLS);
-    let error_bars = table.value(&OUTPUT_ERROR_BARS);
-    table.finish();
-    if let (Some(solver), Some(place)) = (solver, place)
+    let field_cells = table.place_of("field_cells");
+    let places = ["profiles_at", "fields_at"].map(|key| table.places_in(key));
+    let output: OutputPlan = block::read(table, None)?;
+    if let (Some(solver), Some(place)) = (solver, field_cells)
         && solver.engine == EngineKind::HalfSpace
     {
         problems
@@ -133,34 +128,23 @@ fn output(
             .help("remove `field_cells`, and set solver.cells");
         return None;
     }
-    Some(OutputPlan {
-        profiles_at_s: profiles?,
-        fields_at_s: fields?,
-        field_cells: field_cells?,
-        error_bars: error_bars?,
-    })
-}
-
-/// Times within the history, in the order in which they are written.
-fn times(
-    table: &mut TableReader<'_>,
-    row: &Row<Array<Scalar>, Optional>,
-    drive: Option<&SegmentedDrive>,
-) -> Option<Vec<f64>> {
-    let Some(list) = table.value(row)? else {
-        return Some(Vec::new());
+    let Some(end_s) = drive.map(SegmentedDrive::duration_s) else {
+        return Some(output);
     };
+    // Durations are added up: the end may differ from the time written by rounding.
+    let is_outside = |time_s: f64| !(0.0..=end_s * (1.0 + 1e-12)).contains(&time_s);
     let mut fine = true;
-    if let Some(end_s) = drive.map(SegmentedDrive::duration_s) {
-        // Durations are added up: the end may differ from the time written by rounding.
-        let outside = |t: &&Located<f64>| !(0.0..=end_s * (1.0 + 1e-12)).contains(&t.value);
-        for time in list.iter().filter(outside) {
+    for (times_s, places) in [&output.profiles_at_s, &output.fields_at_s]
+        .iter()
+        .zip(&places)
+    {
+        for (_, place) in times_s.iter().zip(places).filter(|(t, _)| is_outside(**t)) {
             let end = format_human(end_s, Dimension::Time, 6);
-            (table.problems())
-                .at(time, "this time is not within the drive's history")
+            problems
+                .at(place, "this time is not within the drive's history")
                 .because(format!("the history lasts from 0 s to {end}"));
             fine = false;
         }
     }
-    fine.then(|| plain(list))
+    fine.then_some(output)
 }

@@ -4,25 +4,22 @@ mod conditions;
 
 use super::axis::Swept;
 use super::diagnostic::{Diagnostics, Problems};
-use super::document::Document;
 use super::document::reader::TableReader;
 use super::document::row::Row;
+use super::document::{Document, block};
 use super::figures_block::{self, Figures};
 use super::given::Given;
 use super::keys::drive::{
     ANGULAR_FREQUENCY, DRIVE_AXIS, FREQUENCY, INDENTER_AXIS, LAYER_AXIS, MATERIAL_AXIS, PAIRS,
     REFINE,
 };
-use super::keys::settings::{
-    AT_CYCLE, CYCLE_ACCURACY, CYCLE_ERROR_BARS, CYCLE_STEPS, CYCLE_TOLERANCE, MAX_CYCLES, METHOD,
-};
-use super::{harmonic_block, keys, layer_block};
+use super::{harmonic_block, keys, solver_block};
 use crate::engine::SolverPlan;
 use crate::figures::elastic::ElasticScale;
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::plan::axes::MOST as MOST_AXES;
 use crate::sweep::plan::figures::FigurePlan;
-use crate::sweep::plan::{CyclePlan, Method, SweepPlan};
+use crate::sweep::plan::{CyclePlan, SweepPlan};
 use conditions::Blocks;
 
 const MAX_CASES: usize = SweepPlan::MAX_CASES;
@@ -48,7 +45,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
         let sweep = sweep.and_then(|table| axes(table, prescribed.dimension()));
         let sweep = sweep.as_ref();
         let blocks = Blocks::read(root, sweep, prescribed, given);
-        let cycle = root.table_or(&keys::CYCLE, CyclePlan::default(), cycle);
+        let cycle = root.table_or(&keys::CYCLE, CyclePlan::default(), |t| block::read(t, None));
         let layer = blocks.layer.as_ref().and_then(|over| over.own);
         let default = blocks.indenter.as_ref().map(|over| {
             // Cells can do what springs cannot.
@@ -57,7 +54,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
                 .find(|indenter| indenter.axisymmetric().is_none());
             SolverPlan::of(on_cells.unwrap_or(&over.own).as_ref(), layer.is_some())
         });
-        let solver = layer_block::solver(root, layer.is_some(), default.unwrap_or_default());
+        let solver = solver_block::read(root, layer.is_some(), default.unwrap_or_default());
         let frequencies = sweep.map(|axes| axes.angular_frequencies_rad_per_s.as_slice());
         let given_in = sweep.map(|axes| axes.given_in).unwrap_or_default();
         let figures = root.table_or(&keys::FIGURES, Figures::of_unit(given_in), |t| {
@@ -195,31 +192,4 @@ fn frequencies(table: &mut TableReader<'_>) -> Option<(Vec<f64>, FrequencyUnit)>
     let (row, to_angular, given_in) = table.one_of(&keys)?;
     let values = table.value(row)?.into_iter();
     Some((values.map(|value| value * to_angular).collect(), given_in))
-}
-
-pub(super) fn cycle(mut table: TableReader<'_>) -> Option<CyclePlan> {
-    let problems = table.problems();
-    let steps = table.value(&CYCLE_STEPS);
-    let method = table.value(&METHOD);
-    let tolerance = table.value(&CYCLE_TOLERANCE);
-    let max_cycles = table.value(&MAX_CYCLES);
-    let at_cycle = table.value(&AT_CYCLE);
-    if let (Some(key), Some(Method::Direct)) = (table.key_location(&AT_CYCLE), method) {
-        problems
-            .at(&key, "a cycle by its number needs `cycle.method = \"march\"`")
-            .because("a direct search knows no cycles before the stabilised one")
-            .help("add `method = \"march\"`, and in `[drive]` perhaps a `hold` before the first cycle");
-    }
-    let error_bars = table.value(&CYCLE_ERROR_BARS);
-    let accuracy = table.value(&CYCLE_ACCURACY);
-    table.finish();
-    Some(CyclePlan {
-        steps: steps?,
-        method: method?,
-        tolerance: tolerance?,
-        max_cycles: max_cycles?,
-        at_cycle: at_cycle?,
-        error_bars: error_bars?,
-        accuracy: accuracy?,
-    })
 }

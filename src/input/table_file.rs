@@ -10,15 +10,6 @@ use crate::material::tabulated::{TableColumn, TableError, Tabulated};
 use crate::material::{MaterialFunction, ModulusKind};
 use crate::quantity::Dimension;
 
-/// The words by which files and flags call the two quantities.
-pub(crate) const QUANTITIES: [(&str, MaterialFunction); 2] = [
-    (MaterialFunction::Creep.name(), MaterialFunction::Creep),
-    (
-        MaterialFunction::Relaxation.name(),
-        MaterialFunction::Relaxation,
-    ),
-];
-
 /// The column of times.
 const TIMES: Column = Column {
     names: &["time", "test_time", "elapsed_time", "zeit", "t"],
@@ -51,10 +42,10 @@ fn values_of(function: MaterialFunction, kind: ModulusKind) -> Column {
     Column::new(names, dimension, "values")
 }
 
-fn other(function: MaterialFunction) -> (&'static str, MaterialFunction) {
+fn other(function: MaterialFunction) -> MaterialFunction {
     match function {
-        MaterialFunction::Creep => QUANTITIES[1],
-        MaterialFunction::Relaxation => QUANTITIES[0],
+        MaterialFunction::Creep => MaterialFunction::Relaxation,
+        MaterialFunction::Relaxation => MaterialFunction::Creep,
     }
 }
 
@@ -119,7 +110,8 @@ fn tabulated(
 
 /// What a table is for that has the column of the other quantity, or of the other modulus.
 fn meant_for(file: &DataFile, function: MaterialFunction, kind: ModulusKind) -> Option<String> {
-    let (word, other_function) = other(function);
+    let other_function = other(function);
+    let word = other_function.name();
     let other_kind = match kind {
         ModulusKind::Longitudinal => ModulusKind::Shear,
         ModulusKind::Shear => ModulusKind::Longitudinal,
@@ -140,7 +132,7 @@ fn explain(place: &Location, error: &TableError, function: MaterialFunction) -> 
     let diagnostic = Diagnostic::at(place, error.to_string());
     match error {
         TableError::Reversal { .. } | TableError::Trend { .. } => {
-            let (word, _) = other(function);
+            let word = other(function).name();
             diagnostic.help(format!(
                 "check units and columns; if the values are of the other quantity, say \"{word}\""
             ))

@@ -53,7 +53,7 @@ impl Tolerances {
 
     /// The tolerance that was asked for the frequencies of the peaks, in whichever words.
     fn of_peak_frequency(&self) -> Option<f64> {
-        let columns = FrequencyUnit::NAMES.map(|(_, unit)| unit.column());
+        let columns = [FrequencyUnit::RadPerS, FrequencyUnit::Hz].map(FrequencyUnit::column);
         let own = || columns.iter().find_map(|column| self.own(column));
         self.peaks.or_else(own)
     }

@@ -263,7 +263,8 @@ fn of_layer(cells: usize) -> IdentifyPlan {
     let layer = LayerPlan {
         thickness_m: 2e-4,
         base: Base::Bonded,
-        yielding: None,
+        base_modulus_ratio: None,
+        base_poisson_ratio: None,
     };
     let with = With {
         layer: Some(layer),

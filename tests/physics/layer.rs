@@ -288,7 +288,8 @@ fn bonded(thickness_m: f64, yielding: Option<YieldingBase>) -> LayerPlan {
     LayerPlan {
         thickness_m,
         base: Base::Bonded,
-        yielding,
+        base_modulus_ratio: yielding.map(|base| base.modulus_ratio),
+        base_poisson_ratio: yielding.map(|base| base.poisson_ratio),
     }
 }
 

@@ -89,7 +89,8 @@ fn the_loss_of_a_punch_on_a_layer_is_inside_its_bar_on_every_grid() {
         let layer = LayerPlan {
             thickness_m: RADIUS_M / a_over_h,
             base: Base::Bonded,
-            yielding: None,
+            base_modulus_ratio: None,
+            base_poisson_ratio: None,
         };
         let of_material = layer.made_of(material.poisson_ratio().unwrap());
         let exact = LayerContact::new(of_material, RADIUS_M, 80);

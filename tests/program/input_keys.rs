@@ -49,7 +49,7 @@ fn the_committed_schemas_are_what_the_command_prints() {
             .assert()
             .success();
         let printed = String::from_utf8(printed.get_output().stdout.clone()).unwrap();
-        assert_eq!(printed, schema::text(kind));
+        assert_eq!(printed, schema::text(*kind));
         assert_current(&format!("sweeps/schema/{name}.json"), &printed);
     }
     program()
@@ -90,7 +90,7 @@ fn validator(kind: FileKind) -> &'static jsonschema::Validator {
             let schema = serde_json::from_str(&schema::text(kind)).unwrap();
             (kind, jsonschema::draft202012::new(&schema).unwrap())
         };
-        FileKind::NAMES.map(make).into()
+        FileKind::NAMES.iter().copied().map(make).collect()
     });
     let (_, validator) = made.iter().find(|(known, _)| *known == kind).unwrap();
     validator

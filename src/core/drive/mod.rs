@@ -24,29 +24,25 @@ mod piece;
 mod schedule;
 mod segments;
 
+use crate::words;
+
 pub use harmonic::HarmonicDrive;
 pub use schedule::{Fineness, MAX_MOMENTS, Moment, Schedule, ScheduleError, Steps};
 pub use segments::{HistoryError, Joint, Segment, SegmentProblem, SegmentedDrive};
 
-/// What the drive prescribes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Control {
-    /// The normal load W, in N.
-    #[default]
-    Load,
-    /// The approach delta, in m.
-    Approach,
+words! {
+    /// What the drive prescribes.
+    #[derive(Default)]
+    pub enum Control {
+        /// The normal load W, in N.
+        #[default]
+        Load = "load",
+        /// The approach delta, in m.
+        Approach = "approach",
+    }
 }
 
 impl Control {
-    /// The name as written in a file, which is also that of the quantity.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Load => "load",
-            Self::Approach => "approach",
-        }
-    }
-
     /// The SI unit of the drive's values.
     pub fn unit(self) -> &'static str {
         match self {

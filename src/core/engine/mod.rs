@@ -8,6 +8,7 @@ mod layered;
 mod solver;
 mod springs;
 
+pub(crate) use solver::{CELLS, TOLERANCE};
 pub use solver::{EngineKind, SolverPlan};
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};

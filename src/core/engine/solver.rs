@@ -1,36 +1,41 @@
 //! Which engine solves a contact, and how fine.
 
+use std::ops::RangeInclusive;
+
 use crate::history::TimeRule;
 use crate::indenter::Indenter;
+use crate::quantity::block::{Block, Refused};
+use crate::quantity::key::{Kind, Limits, tolerance};
+use crate::quantity::setting::Table;
+use crate::{block_with_defaults, words};
 
-/// Which engine, and how fine.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SolverPlan {
-    pub engine: EngineKind,
-    pub time_rule: TimeRule,
-    /// Axisymmetric engine: springs over the domain.
-    pub springs: usize,
-    /// Half-space engine: cells along the longer side of the domain; those of the indenter where it is a map.
-    pub cells: usize,
-    /// Half-space engine: tolerance of one instant, see [`crate::contact::half_space::SolverSettings`]; where none is given, what
-    /// the loss asks for, see [`crate::engine::instant_tolerance`].
-    pub tolerance: Option<f64>,
+words! {
+    /// The two contact engines. Every `match` names both, so that a third would be met everywhere.
+    pub enum EngineKind {
+        Axisymmetric = "axisymmetric",
+        HalfSpace = "half-space",
+    }
 }
 
-/// The two contact engines. Every `match` names both, so that a third would be met everywhere.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum EngineKind {
-    Axisymmetric,
-    HalfSpace,
-}
+/// Cells along a side.
+pub(crate) const CELLS: RangeInclusive<usize> = 8..=4096;
+/// Tolerances: below 1, and above what rounding leaves.
+pub(crate) const TOLERANCE: Limits = Limits::of(1e-13..1.0);
 
-impl EngineKind {
-    /// The name as written in a sweep file.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Axisymmetric => "axisymmetric",
-            Self::HalfSpace => "half-space",
-        }
+block_with_defaults! {
+    /// Contact engine and its resolution.
+    #[derive(Copy)]
+    pub struct SolverPlan in "solver" {
+        /// The contact engine; left out: the axisymmetric one if the indenter is a convex body of revolution.
+        engine: EngineKind = EngineKind::Axisymmetric => "engine", Kind::Word(EngineKind::WORDS), chosen;
+        /// Half-space engine: cells along the longer side of the domain; a height map has its own.
+        cells: usize = 128 => "cells", Kind::Integer(CELLS);
+        /// Axisymmetric engine: springs over the domain.
+        springs: usize = 400 => "springs", Kind::Integer(10..=10_000);
+        /// Half-space engine: tolerance at one instant; left out: chosen so that its effect on the loss is a tenth of `cycle.tolerance`.
+        tolerance: Option<f64> = None => "tolerance", Kind::Number(tolerance("1e-10").within(TOLERANCE));
+        /// `linear`: second order, in two stages where one would oscillate; `constant`: the first-order rule of the base paper.
+        time_rule: TimeRule = TimeRule::Linear => "time_rule", Kind::Word(TimeRule::WORDS);
     }
 }
 
@@ -45,6 +50,33 @@ impl SolverPlan {
             engine,
             ..Self::DEFAULT
         }
+    }
+
+    /// Checks the values that the engine uses.
+    ///
+    /// # Errors
+    /// [`Refused`] with the first that is wrong.
+    pub(crate) fn check_used(&self) -> Result<(), Refused> {
+        let used = match self.engine {
+            EngineKind::Axisymmetric => Self {
+                cells: Self::DEFAULT.cells,
+                ..*self
+            },
+            EngineKind::HalfSpace => Self {
+                springs: Self::DEFAULT.springs,
+                ..*self
+            },
+        };
+        used.check()
+    }
+
+    /// As a resolved file has it: an indenter that brings its cells has no other number of them.
+    pub(crate) fn table_for(&self, indenter: &dyn Indenter) -> Table {
+        let brings_cells = indenter.own_cells().is_some();
+        let used = self
+            .settings()
+            .filter(|s| s.key != "cells" || !brings_cells);
+        Table::new(Self::NAME).and(used)
     }
 
     /// Nodes along the contact's radius (springs) or the domain's longer side (cells), whichever the engine has.
@@ -72,23 +104,6 @@ impl SolverPlan {
             EngineKind::HalfSpace => self.cells = nodes,
         }
         self
-    }
-}
-
-impl SolverPlan {
-    /// What counts where nothing is asked for.
-    pub const DEFAULT: Self = Self {
-        engine: EngineKind::Axisymmetric,
-        time_rule: TimeRule::Linear,
-        springs: 400,
-        cells: 128,
-        tolerance: None,
-    };
-}
-
-impl Default for SolverPlan {
-    fn default() -> Self {
-        Self::DEFAULT
     }
 }
 

@@ -5,26 +5,19 @@ use serde::{Deserialize, Serialize};
 use crate::contact::Prescribed;
 use crate::material::Creep;
 use crate::numerics::roots::bisect;
+use crate::words;
 
-/// How the pressure is taken to vary within a time step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub enum TimeRule {
-    /// Linear within a step: second order, exact for the kernel at any step length. Between the two instants for bodies in
-    /// which that does not ring; for the others in two stages, see [`StepWeights::damped_stages`].
-    #[default]
-    Linear,
-    /// Held at its old value, then jumping to the new one: first order. The rule of S. Spinu, Advances in Tribology 2018,
-    /// 9432894, equation (24).
-    Constant,
-}
-
-impl TimeRule {
-    /// As files call it.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Linear => "linear",
-            Self::Constant => "constant",
-        }
+words! {
+    /// How the pressure is taken to vary within a time step.
+    #[derive(Default, Serialize, Deserialize)]
+    pub enum TimeRule {
+        /// Linear within a step: second order, exact for the kernel at any step length. Between the two instants for bodies in
+        /// which that does not ring; for the others in two stages, see [`StepWeights::damped_stages`].
+        #[default]
+        Linear = "linear",
+        /// Held at its old value, then jumping to the new one: first order. The rule of S. Spinu, Advances in Tribology 2018,
+        /// 9432894, equation (24).
+        Constant = "constant",
     }
 }
 

@@ -73,6 +73,7 @@ use crate::material::{Compressibility, Material, MaterialError, ModulusKind, Rel
 use crate::sweep::case::SetupError;
 use crate::sweep::plan::CyclePlan;
 use crate::sweep::plan::contact::ContactPlan;
+use crate::words;
 
 /// Times of two branches closer than this factor are one time.
 pub const CLOSEST: f64 = 3.0;
@@ -83,21 +84,12 @@ pub const MOST_BRANCHES: usize = 6;
 /// An unknown whose 95 % interval is wider than this factor to either side is not determined.
 pub const UNDETERMINED: f64 = 2.0;
 
-/// What smallest, largest and mean approaches of measured cycles are counted from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ApproachZero {
-    FirstContact,
-    /// They are no data then, since all have the same unknown in them.
-    Unknown,
-}
-
-impl ApproachZero {
-    /// The name as written in an identification file.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::FirstContact => "first-contact",
-            Self::Unknown => "unknown",
-        }
+words! {
+    /// What smallest, largest and mean approaches of measured cycles are counted from.
+    pub enum ApproachZero {
+        FirstContact = "first-contact",
+        /// They are no data then, since all have the same unknown in them.
+        Unknown = "unknown",
     }
 }
 

@@ -1,11 +1,10 @@
 //! The resolved identification: every default written out, as a file that gives the same plan again.
 
 use crate::identify::{Driven, IdentifyPlan};
+use crate::quantity::block::Block as _;
 use crate::quantity::setting::{Table, Value, document};
 use crate::simulation::scenario::history_table;
-use crate::sweep::plan::resolved::{
-    compressibility, cycle_table, drive_table, indenter_material_text, solver_table,
-};
+use crate::sweep::plan::resolved::{compressibility, drive_table, indenter_material_text};
 
 /// The plan as the text of an identification file.
 pub fn resolved_text(plan: &IdentifyPlan) -> String {
@@ -21,7 +20,7 @@ pub fn resolved_text(plan: &IdentifyPlan) -> String {
         .with("data", &*plan.data)
         .with("branches", plan.branches.map_or("auto".into(), Value::from))
         .with_some("approach_zero", plan.approach_zero.map(|zero| zero.name()));
-    let solver = solver_table(&plan.solver, plan.contact.indenter.as_ref());
+    let solver = plan.solver.table_for(plan.contact.indenter.as_ref());
     let blocks = [
         material.toml(),
         contact.layer,
@@ -29,7 +28,7 @@ pub fn resolved_text(plan: &IdentifyPlan) -> String {
         drive.toml(),
         contact.adhesion,
         identify.toml(),
-        cycle_table(&plan.cycle).toml(),
+        plan.cycle.table().toml(),
         solver.toml(),
     ];
     document(&plan.title, blocks)

@@ -2,6 +2,7 @@
 
 use super::{Domain, Indenter, IndenterError, Setting, Value};
 use crate::quantity::Dimension;
+use crate::words;
 
 /// Fewest points of a map in each direction: a contact needs a border of cells around it.
 pub(super) const MIN_CELLS: usize = 3;
@@ -11,42 +12,32 @@ pub(super) const MAX_CELLS: usize = 1 << 24;
 /// Share of a cell up to which a place beside a point is that point.
 const ON_POINT_TOLERANCE: f64 = 1e-6;
 
-/// What the values of a map are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum MapQuantity {
-    /// Heights of the indenter's surface, positive towards the half-space: the highest point touches first.
-    Height,
-    /// The gap itself: the lowest point touches first.
-    Gap,
+words! {
+    /// What the values of a map are.
+    pub enum MapQuantity {
+        /// Heights of the indenter's surface, positive towards the half-space: the highest point touches first.
+        Height = "height",
+        /// The gap itself: the lowest point touches first.
+        Gap = "gap",
+    }
 }
 
-/// What is beyond the border of a map.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum MapEdge {
-    /// The indenter goes on, though nobody knows how: contact at the border is an error.
-    Unknown,
-    /// The indenter ends half a cell beyond the outer points, as a punch does.
-    Rim,
-    /// The map is one period of a surface that repeats itself along x and along y without end.
-    Periodic,
-}
-
-impl MapQuantity {
-    /// Names as written in a sweep file.
-    pub const NAMES: [(&'static str, Self); 2] = [("height", Self::Height), ("gap", Self::Gap)];
+words! {
+    /// What is beyond the border of a map.
+    pub enum MapEdge {
+        /// The indenter goes on, though nobody knows how: contact at the border is an error.
+        Unknown = "unknown",
+        /// The indenter ends half a cell beyond the outer points, as a punch does.
+        Rim = "rim",
+        /// The map is one period of a surface that repeats itself along x and along y without end.
+        Periodic = "periodic",
+    }
 }
 
 impl MapEdge {
-    /// Names as written in a sweep file.
-    pub const NAMES: [(&'static str, Self); 3] = [
-        ("unknown", Self::Unknown),
-        ("rim", Self::Rim),
-        ("periodic", Self::Periodic),
-    ];
-
     /// The key `edge`.
     pub fn parameter(self) -> Setting {
-        Setting::choice("edge", &Self::NAMES, self)
+        Setting::new("edge", self.name())
     }
 }
 
@@ -109,7 +100,7 @@ impl HeightMap {
             edge,
             shape: Self::SHAPE,
             parameters: vec![
-                Setting::choice("quantity", &MapQuantity::NAMES, quantity),
+                Setting::new("quantity", quantity.name()),
                 Setting::new("spacing", spacing),
                 Setting::new("height_unit", "m"),
                 Setting::new("level", "none"),

@@ -53,50 +53,38 @@ mod spectrum;
 #[cfg(test)]
 mod synthetic;
 
+use crate::words;
+
 pub use compressibility::Compressibility;
 pub use creep::{Creep, CreepBranch};
 pub use error::MaterialError;
 pub use peaks::{LossPeak, LossPeaks};
 pub use relaxation::{Relaxation, RelaxationBranch};
 
-/// What a modulus or a compliance relates: shear stress and engineering shear strain, or
-/// longitudinal (uniaxial) stress and strain.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum ModulusKind {
-    /// Shear modulus G and shear creep compliance J.
-    Shear,
-    /// Young's modulus E and uniaxial creep compliance D.
-    Longitudinal,
+words! {
+    /// What a modulus or a compliance relates: shear stress and engineering shear strain, or
+    /// longitudinal (uniaxial) stress and strain.
+    #[derive(Hash)]
+    pub enum ModulusKind {
+        /// Young's modulus E and uniaxial creep compliance D.
+        Longitudinal = "longitudinal",
+        /// Shear modulus G and shear creep compliance J.
+        Shear = "shear",
+    }
 }
 
-/// The function of the material that was given; the other was computed from it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum MaterialFunction {
-    /// A relaxation modulus.
-    Relaxation,
-    /// A creep compliance.
-    Creep,
-}
-
-impl ModulusKind {
-    /// As files and flags call it.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Shear => "shear",
-            Self::Longitudinal => "longitudinal",
-        }
+words! {
+    /// The function of the material that was given; the other was computed from it.
+    #[derive(Hash)]
+    pub enum MaterialFunction {
+        /// A creep compliance.
+        Creep = "creep",
+        /// A relaxation modulus.
+        Relaxation = "relaxation",
     }
 }
 
 impl MaterialFunction {
-    /// As files and flags call it.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Relaxation => "relaxation",
-            Self::Creep => "creep",
-        }
-    }
-
     /// The letter of the function of this kind.
     pub const fn symbol(self, kind: ModulusKind) -> char {
         match (self, kind) {

@@ -3,20 +3,20 @@
 use std::f64::consts::TAU;
 
 use super::Dimension;
+use crate::words;
 
-/// The unit in which frequencies are reported.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
-pub enum FrequencyUnit {
-    #[default]
-    #[serde(rename = "rad/s")]
-    RadPerS,
-    Hz,
+words! {
+    /// The unit in which frequencies are reported.
+    #[derive(Default, serde::Serialize)]
+    pub enum FrequencyUnit {
+        #[default]
+        #[serde(rename = "rad/s")]
+        RadPerS = "rad/s",
+        Hz = "Hz",
+    }
 }
 
 impl FrequencyUnit {
-    /// All, as files name them.
-    pub const NAMES: [(&'static str, Self); 2] = [("rad/s", Self::RadPerS), ("Hz", Self::Hz)];
-
     /// An angular frequency (rad/s) in this unit.
     pub fn of(self, angular_frequency_rad_per_s: f64) -> f64 {
         match self {
@@ -31,11 +31,6 @@ impl FrequencyUnit {
             Self::RadPerS => Dimension::AngularFrequency,
             Self::Hz => Dimension::Frequency,
         }
-    }
-
-    /// The unit: `rad/s`.
-    pub fn name(self) -> &'static str {
-        self.dimension().si_unit()
     }
 
     /// The quantity in words.

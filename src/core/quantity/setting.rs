@@ -55,16 +55,6 @@ impl Setting {
         Self::new(key, Value::Quantity(value_m, Dimension::Length))
     }
 
-    /// A choice, by its name among those that a file may give.
-    pub fn choice<T: PartialEq>(
-        key: impl Into<Cow<'static, str>>,
-        names: &[(&'static str, T)],
-        chosen: T,
-    ) -> Self {
-        let named = names.iter().find(|(_, choice)| *choice == chosen);
-        Self::new(key, named.map_or("", |(name, _)| name))
-    }
-
     /// The line that gives the setting, without its end.
     pub fn toml(&self) -> String {
         format!("{} = {}", self.key, self.value.toml())

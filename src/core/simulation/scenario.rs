@@ -2,16 +2,19 @@
 
 use std::sync::Arc;
 
+use crate::block_with_defaults;
 use crate::drive::{Control, Segment, SegmentedDrive};
-use crate::engine::{EngineKind, SolverPlan};
+use crate::engine::{CELLS, EngineKind, SolverPlan};
 use crate::indenter::Indenter;
 use crate::quantity::Dimension;
+use crate::quantity::block::Block as _;
+use crate::quantity::key::{Entries, Kind, quantity};
 use crate::quantity::setting::{Setting, Table, Value, document};
 use crate::simulation::body_material::BodyMaterial;
-use crate::sweep::plan::check::{PlanError, check_count};
+use crate::sweep::plan::check::PlanError;
 use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::figures::FigurePlan;
-use crate::sweep::plan::resolved::{drive_dimension, indenter_material_text, solver_table};
+use crate::sweep::plan::resolved::{drive_dimension, indenter_material_text};
 
 /// Everything a simulation needs to know. Two equal plans give equal results, bit for bit.
 #[derive(Debug, Clone)]
@@ -63,39 +66,32 @@ impl ScenarioPlan {
     /// # Errors
     /// [`PlanError`] with the first value that is refused.
     pub fn check(&self) -> Result<(), PlanError> {
-        let cells = self.output.field_cells;
-        check_count("cells of a field", cells, &SolverPlan::CELLS)?;
+        self.output.check()?;
         self.contact.check()?;
-        self.solver.check()
+        Ok(self.solver.check_used()?)
     }
 }
 
-/// What is written beside the history.
-#[derive(Debug, Clone, PartialEq)]
-pub struct OutputPlan {
-    /// Times (s) at which profiles along a radius, or along the axes of the grid, are kept.
-    pub profiles_at_s: Vec<f64>,
-    /// Times (s) at which whole fields are kept.
-    pub fields_at_s: Vec<f64>,
-    /// Axisymmetric engine: cells per side of the square on which fields are given; the half-space engine has its own.
-    pub field_cells: usize,
-    /// Whether the history is to be followed at coarser resolutions too, which tells the errors of its rows.
-    pub error_bars: bool,
-}
+/// More of them fill memory and disk before they are looked at.
+const TIMES: Kind = Kind::Numbers(
+    quantity(Dimension::Time),
+    Entries {
+        number: 0..=10_000,
+        ..Entries::ANY
+    },
+);
 
-impl OutputPlan {
-    /// What counts where nothing is asked for.
-    pub const DEFAULT: Self = Self {
-        profiles_at_s: Vec::new(),
-        fields_at_s: Vec::new(),
-        field_cells: 128,
-        error_bars: true,
-    };
-}
-
-impl Default for OutputPlan {
-    fn default() -> Self {
-        Self::DEFAULT
+block_with_defaults! {
+    /// What is written in addition to the history.
+    pub struct OutputPlan in "output" {
+        /// Times at which profiles along a radius, or along the axes of the grid, are written.
+        profiles_at_s: Vec<f64> = Vec::new() => "profiles_at", TIMES, chosen;
+        /// Times at which whole fields are written, as `.npy` and as `.vti` for ParaView.
+        fields_at_s: Vec<f64> = Vec::new() => "fields_at", TIMES, chosen;
+        /// Whether the history is repeated with fewer steps and nodes to estimate the error of every row.
+        error_bars: bool = true => "error_bars", Kind::Flag;
+        /// Axisymmetric engine: cells per side of these fields, which are revolved.
+        field_cells: usize = 128 => "field_cells", Kind::Integer(CELLS);
     }
 }
 
@@ -111,24 +107,15 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
         output,
         figures,
     } = plan;
-    let OutputPlan {
-        profiles_at_s,
-        fields_at_s,
-        field_cells,
-        error_bars,
-    } = output;
     let material = &contact.material;
     let is_on_springs = solver.engine == EngineKind::Axisymmetric;
-    let solver = solver_table(solver, contact.indenter.as_ref());
+    let solver = solver.table_for(contact.indenter.as_ref());
     let contact = contact.blocks(material.indenter_material().map(indenter_material_text));
     let step = step_s.map(|step_s| Value::Quantity(step_s, Dimension::Time));
     let time = Table::new("time").with_some("step", step).unless_empty();
-    let times = |times_s: &[f64]| Value::Quantities(times_s.to_vec(), Dimension::Time);
-    let output = Table::new("output")
-        .with("profiles_at", times(profiles_at_s))
-        .with("fields_at", times(fields_at_s))
-        .with("error_bars", *error_bars)
-        .with_some("field_cells", is_on_springs.then_some(*field_cells));
+    let output = output.settings();
+    let output = output.filter(|setting| is_on_springs || setting.key != "field_cells");
+    let output = Table::new(OutputPlan::NAME).and(output);
     let blocks = [
         material.text(),
         contact.layer,

@@ -15,8 +15,11 @@ use super::tree::{Node, Table as TomlTable, Value};
 use crate::input::axis::AxisOf;
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Location, Problems};
 use crate::quantity::Dimension;
+use crate::quantity::block::alternatives;
+use crate::quantity::key::expected_integer;
+pub(crate) use crate::quantity::key::{Number, number, quantity};
 pub(crate) use array::{Array, list, pair};
-pub(crate) use scalar::{Decided, Dependent, Scalar, number, quantity, text_definitions};
+pub(crate) use scalar::{Decided, Dependent, text_definitions};
 
 /// Characters of the user's text repeated in a message.
 const MAX_QUOTED: usize = 32;
@@ -104,7 +107,7 @@ pub(crate) trait Describe: Sync {
     }
 
     /// What the number is, where the value is one; `controlled` is the dimension of what the drive controls.
-    fn scalar(&self, _controlled: Dimension) -> Option<Scalar> {
+    fn number(&self, _controlled: Dimension) -> Option<Number> {
         None
     }
 
@@ -161,11 +164,7 @@ pub(crate) struct Integer(pub(crate) RangeInclusive<usize>);
 
 impl Describe for Integer {
     fn expected(&self) -> String {
-        match (*self.0.start(), *self.0.end()) {
-            (1, usize::MAX) => "a positive integer".to_owned(),
-            (least, usize::MAX) => format!("an integer of at least {least}"),
-            (least, most) => format!("an integer from {least} to {most}"),
-        }
+        expected_integer(&self.0)
     }
 
     fn example(&self) -> String {
@@ -324,27 +323,23 @@ fn without_control_characters(
 /// One of a few words, each standing for a value.
 pub(crate) struct Choice<T: 'static>(pub(crate) &'static [(&'static str, T)]);
 
+impl<T: Clone + PartialEq + Sync> Choice<T> {
+    fn one_of(&self) -> OneOf {
+        OneOf(self.words())
+    }
+}
+
 impl<T: Clone + PartialEq + Sync> Describe for Choice<T> {
     fn expected(&self) -> String {
-        let words: Vec<String> = self
-            .0
-            .iter()
-            .map(|(word, _)| format!("\"{word}\""))
-            .collect();
-        match words.split_last() {
-            Some((last, [])) => last.clone(),
-            Some((last, others)) => format!("{} or {last}", others.join(", ")),
-            None => "absent".to_owned(),
-        }
+        self.one_of().expected()
     }
 
     fn example(&self) -> String {
-        let word = self.0.first().map_or("...", |(word, _)| word);
-        format!("\"{word}\"")
+        self.one_of().example()
     }
 
     fn schema(&self) -> Json {
-        json!({ "enum": self.words() })
+        self.one_of().schema()
     }
 
     fn words(&self) -> Vec<&'static str> {
@@ -361,14 +356,50 @@ impl<T: Clone + PartialEq + Sync> Kind for Choice<T> {
     }
 
     fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<T, Diagnostics> {
+        let found = self.one_of().convert(node, spot)?;
+        let named = self.0.iter().find(|(word, _)| *word == found);
+        let named = named.map(|(_, value)| value.clone());
+        named.ok_or_else(|| self.refused(node, spot))
+    }
+}
+
+/// One of a few words.
+pub(crate) struct OneOf(pub(crate) Vec<&'static str>);
+
+impl Describe for OneOf {
+    fn expected(&self) -> String {
+        alternatives(&self.0)
+    }
+
+    fn example(&self) -> String {
+        format!("\"{}\"", self.0.first().unwrap_or(&"..."))
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "enum": self.0 })
+    }
+
+    fn words(&self) -> Vec<&'static str> {
+        self.0.clone()
+    }
+}
+
+impl Kind for OneOf {
+    type Value = &'static str;
+
+    fn written(&self, word: &&'static str) -> Json {
+        json!(word)
+    }
+
+    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<&'static str, Diagnostics> {
         let Value::Text(text) = &node.value else {
             return Err(self.refused(node, spot));
         };
-        if let Some((_, value)) = self.0.iter().find(|(word, _)| word == text) {
-            return Ok(value.clone());
+        if let Some(word) = self.0.iter().find(|word| *word == text) {
+            return Ok(word);
         }
         let diagnostic = must_be(spot, &self.expected(), node);
-        let diagnostic = match similar(text, &self.words()) {
+        let diagnostic = match similar(text, &self.0) {
             Some(meant) => {
                 let written = spot.write(&node.location, &format!("\"{meant}\""));
                 diagnostic

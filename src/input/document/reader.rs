@@ -76,6 +76,23 @@ impl<'a> TableReader<'a> {
         self.find(row.name()).map(|entry| entry.key.clone())
     }
 
+    /// The same of a key of this name.
+    pub(crate) fn place_of(&mut self, key: &str) -> Option<Location> {
+        self.find(key).map(|entry| entry.key.clone())
+    }
+
+    /// Where the items of a list are written; of a single value in its place, where that is.
+    pub(crate) fn places_in(&mut self, key: &str) -> Vec<Location> {
+        match self.find(key).map(|entry| &entry.node) {
+            None => Vec::new(),
+            Some(Node {
+                value: Value::Array(items),
+                ..
+            }) => items.iter().map(|item| item.location.clone()).collect(),
+            Some(node) => vec![node.location.clone()],
+        }
+    }
+
     /// The value that belongs to the one of these keys that is present. None, or more than one, is a problem, and reported.
     pub(crate) fn one_of<T: Copy>(&mut self, choices: &[(&'static dyn AnyRow, T)]) -> Option<T> {
         let present: Vec<(&str, T, &Entry)> = choices
@@ -299,15 +316,19 @@ impl<'a> TableReader<'a> {
 
     /// Reports a key that must be there and is not.
     pub(crate) fn report_absent<K: Describe, P>(&mut self, row: &Row<K, P>) {
-        let key = row.name;
+        self.report_none(row.name, &row.kind);
+    }
+
+    /// The same of a key of this name, under which a value of this kind should stand.
+    pub(super) fn report_none(&mut self, key: &str, kind: &dyn Describe) {
         let message = format!("missing key `{}`", join(&self.path, key));
-        let example = format!("`{key} = {}`", row.kind.example());
+        let example = format!("`{key} = {}`", kind.example());
         let problem = Diagnostic::at(&self.location, message);
         let problem = if self.location.is_whole() {
             problem.help(format!("add {example} above the first table"))
         } else {
             problem
-                .because(format!("needs `{key}`, {}", row.kind.expected()))
+                .because(format!("needs `{key}`, {}", kind.expected()))
                 .help(format!("add {example}"))
         };
         self.report_missing(&[key], problem);
@@ -318,15 +339,24 @@ impl<'a> TableReader<'a> {
         &mut self,
         row: &Row<K, P>,
     ) -> Option<Option<Located<K::Value>>> {
-        let Some(entry) = self.find(row.name) else {
+        self.under(row.name, &row.kind)
+    }
+
+    /// The same of a key of this name.
+    pub(super) fn under<K: Kind>(
+        &mut self,
+        key: &str,
+        kind: &K,
+    ) -> Option<Option<Located<K::Value>>> {
+        let Some(entry) = self.find(key) else {
             return Some(None);
         };
-        let path = join(&self.path, row.name);
+        let path = join(&self.path, key);
         let spot = Spot {
             path: &path,
-            key: Some(row.name),
+            key: Some(key),
         };
-        match row.kind.convert(&entry.node, &spot) {
+        match kind.convert(&entry.node, &spot) {
             Ok(value) => Some(Some(spot.located(value, &entry.node))),
             Err(diagnostics) => {
                 self.problems.extend(diagnostics);
@@ -1207,8 +1237,8 @@ tolerance = 1e-400
 
     #[test]
     fn numbers_beyond_their_limits_are_refused_with_what_to_write() {
-        use crate::input::document::limits::Limits;
         use crate::quantity::Dimension::Length;
+        use crate::quantity::key::Limits;
         use std::ops::Bound;
         let text = "a = \"0 N\"\nb = -1\nc = \"2 m\"\nd = 0.6\ne = [1, 1]\nf = []\ng = [\"1 s\"]\n";
         let text = report(text, |mut root| {

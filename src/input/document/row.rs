@@ -6,6 +6,7 @@ use super::Located;
 use super::kind::{Decided, Describe, Kind};
 use super::reader::TableReader;
 use crate::quantity::Dimension;
+use crate::quantity::key::Key;
 
 /// One key of a table: everything that reading, schema and reference know of it.
 pub(crate) struct Row<K, P> {
@@ -162,6 +163,8 @@ pub(crate) struct Rows {
     pub(crate) means: &'static str,
     /// Keys that it may have whatever else it has.
     pub(crate) keys: List,
+    /// The same of a block that is declared as a struct.
+    pub(crate) block: &'static [Key],
     pub(crate) others: Others,
 }
 
@@ -170,7 +173,7 @@ pub(crate) struct Rows {
 pub(crate) enum Others {
     None,
     /// At most one of these, which are among the keys.
-    AtMostOne(List),
+    AtMostOne(&'static [&'static str]),
     /// Those of exactly one of these lists, of which the first key decides.
     OneList(&'static [List]),
     /// Those that belong to the word under a key.
@@ -215,7 +218,7 @@ impl Rows {
                     for branch in &mut inner {
                         branch.decided_by.insert(0, (row.name(), Some(*word)));
                         branch.means = rows.means;
-                        branch.keys.splice(0..0, rows.keys.iter().copied());
+                        branch.keys.splice(0..0, rows.own());
                     }
                     inner
                 };
@@ -232,10 +235,9 @@ impl Rows {
         word: &dyn Fn(&str) -> Option<&'a str>,
     ) -> Vec<&'static str> {
         if let Others::AtMostOne(keys) = self.others {
-            let names: Vec<&str> = keys.iter().map(|row| row.name()).collect();
-            let others = names
+            let others = keys
                 .iter()
-                .filter(|name| **name != set && names.contains(&set));
+                .filter(|name| **name != set && keys.contains(&set));
             return others.copied().collect();
         }
         let decides = matches!(self.others, Others::ByWord(row, _) if row.name() == set);
@@ -274,7 +276,13 @@ impl Rows {
     /// Every key that may stand in the table, in any of the ways to fill it.
     pub(crate) fn all(&self) -> Vec<&'static dyn AnyRow> {
         let branches = self.branches().into_iter().flat_map(|branch| branch.keys);
-        self.keys.iter().copied().chain(branches).collect()
+        self.own().into_iter().chain(branches).collect()
+    }
+
+    /// The keys that the table may have whatever else it has.
+    pub(crate) fn own(&self) -> Vec<&'static dyn AnyRow> {
+        let of_block = self.block.iter().map(|key| key as &'static dyn AnyRow);
+        self.keys.iter().copied().chain(of_block).collect()
     }
 
     /// Shows every key, and every key below it, with its dotted path.
@@ -295,18 +303,18 @@ impl Rows {
     pub(crate) fn schema(&self) -> Json {
         let branches = self.branches();
         let mut schema = match branches.is_empty() {
-            true => object(self.keys, &[]),
+            true => object(&self.own(), &[]),
             false => {
                 let all = branches.iter().map(|branch| {
-                    let keys: Vec<_> = self.keys.iter().chain(&branch.keys).copied().collect();
+                    let mut keys = self.own();
+                    keys.extend(&branch.keys);
                     object(&keys, &branch.decided_by)
                 });
                 json!({ "oneOf": all.collect::<Vec<_>>() })
             }
         };
         if let Others::AtMostOne(keys) = self.others {
-            let names: Vec<&str> = keys.iter().map(|row| row.name()).collect();
-            schema["not"] = json!({ "required": names });
+            schema["not"] = json!({ "required": keys });
         }
         schema
     }

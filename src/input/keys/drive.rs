@@ -1,36 +1,32 @@
 //! Keys of `[drive]` and `[sweep]`: an oscillation and its axes, or a history of segments.
 
 use super::indenter::{INDENTER, LISTED_INDENTER};
-use super::layer::LAYER;
 use super::material::MATERIAL;
-use super::rows;
+use super::settings::LAYER;
+use super::{choice, rows};
 use crate::drive::Control;
 use crate::input::axis::AxisOf;
 use crate::input::document::kind::Boolean;
 use crate::input::document::kind::{
-    Array, Choice, Dependent, Integer, Scalar, Tables, Text, list, number, quantity,
+    Array, Choice, Dependent, Integer, Number, Tables, Text, list, number, quantity,
 };
-use crate::input::document::limits::Limits;
 use crate::input::document::row::{Optional, Or, Others, Required, Row, Rows};
-use crate::input::points::{MOST_POINTS, Points, SPACINGS, Spacing};
+use crate::input::points::{MOST_POINTS, Points, Spacing};
 use crate::quantity::Dimension::{
     self, Angle, AngularFrequency, Force, Frequency, Length, Stress, Time,
 };
+use crate::quantity::key::Limits;
 use crate::sweep::plan::Block;
+use contact_dma_core::words;
 
-/// What may be prescribed: a load, also as a mean pressure, or an approach.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Prescribed {
-    Load,
-    Pressure,
-    Approach,
+words! {
+    /// What may be prescribed: a load, also as a mean pressure, or an approach.
+    pub(crate) enum Prescribed {
+        Load = "load",
+        Pressure = "pressure",
+        Approach = "approach",
+    }
 }
-
-const PRESCRIBED: [(&str, Prescribed); 3] = [
-    (Control::Load.name(), Prescribed::Load),
-    ("pressure", Prescribed::Pressure),
-    (Control::Approach.name(), Prescribed::Approach),
-];
 
 impl Prescribed {
     /// What is controlled, a pressure by its load.
@@ -63,15 +59,15 @@ rows! { HARMONIC_KEYS:
     /// What is prescribed: the load; the mean pressure on a periodic surface (load over the area of one period); or the approach. The
     /// values below are then forces, stresses or lengths.
     PRESCRIBES: Row<Choice<Prescribed>, Or<Prescribed>> =
-        "control", Choice(&PRESCRIBED), Or(Prescribed::Load);
+        "control", Choice(Prescribed::NAMES), Or(Prescribed::Load);
     /// Mean; the sum of mean and amplitude must be above zero.
     MEAN: Row<Dependent, Required> = "mean", of_prescribed(Limits::NONE), Required;
     /// Amplitude; a load is held at zero where the sine would be negative.
     AMPLITUDE: Row<Dependent, Required> = "amplitude", of_prescribed(Limits::ABOVE_ZERO), Required;
     /// Phase at the start of the oscillation.
-    PHASE: Row<Scalar, Or<f64>> = "phase", quantity(Angle), Or(0.0);
+    PHASE: Row<Number, Or<f64>> = "phase", quantity(Angle), Or(0.0);
     /// Hold at the mean before the oscillation.
-    HOLD: Row<Scalar, Or<f64>> = "hold", quantity(Time).not_negative(), Or(0.0);
+    HOLD: Row<Number, Or<f64>> = "hold", quantity(Time).not_negative(), Or(0.0);
 }
 
 pub(super) static HARMONIC: Rows = super::table(
@@ -114,36 +110,20 @@ rows! { SWEEP_KEYS:
 pub(super) static SWEEP: Rows = Rows {
     means: " The cases: exactly one of `angular_frequency` and `frequency`, and optional further axes.",
     keys: SWEEP_KEYS,
+    block: &[],
     others: Others::OneList(&[&[&ANGULAR_FREQUENCY], &[&FREQUENCY]]),
 };
 
 rows! { RANGE_KEYS:
     /// First point.
-    FROM: Row<Scalar, Required> = "from", quantity(AngularFrequency).above_zero(), Required;
+    FROM: Row<Number, Required> = "from", quantity(AngularFrequency).above_zero(), Required;
     /// Last point.
-    TO: Row<Scalar, Required> = "to", quantity(AngularFrequency).above_zero(), Required;
+    TO: Row<Number, Required> = "to", quantity(AngularFrequency).above_zero(), Required;
     /// Number of points, both ends included.
     POINTS: Row<Integer, Required> = "points", Integer(1..=MOST_POINTS), Required;
     /// Logarithmic (constant ratio) or linear (constant difference).
-    SPACING: Row<Choice<Spacing>, Or<Spacing>> = "spacing", Choice(&SPACINGS), Or(Spacing::Logarithmic);
+    SPACING: Row<Choice<Spacing>, Or<Spacing>> = "spacing", Choice(Spacing::NAMES), Or(Spacing::Logarithmic);
 }
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum SegmentKind {
-    Step,
-    Ramp,
-    Polynomial,
-    Sine,
-    Table,
-}
-
-const SEGMENT_KINDS: [(&str, SegmentKind); 5] = [
-    ("step", SegmentKind::Step),
-    ("ramp", SegmentKind::Ramp),
-    ("polynomial", SegmentKind::Polynomial),
-    ("sine", SegmentKind::Sine),
-    ("table", SegmentKind::Table),
-];
 
 /// More segments than this belong into a table.
 const MOST_SEGMENTS: usize = 10_000;
@@ -165,41 +145,37 @@ pub(super) static HISTORY: Rows = super::table(
     &[&PRESCRIBES, &SEGMENTS],
 );
 
-rows! { SEGMENT_KEYS:
+choice! {
     /// The kind of the segment; what it needs is listed below.
-    KIND: Row<Choice<SegmentKind>, Required> = "kind", Choice(&SEGMENT_KINDS), Required;
+    KIND = "kind", SegmentKind, BY_KIND:
+    /// A jump to a constant value.
+    Step = "step": &[&TARGET, &DURATION];
+    /// A straight line from the end of the previous segment.
+    Ramp = "ramp": &[&TARGET, &DURATION];
+    /// A polynomial of time.
+    Polynomial = "polynomial": &[&COEFFICIENTS, &DURATION];
+    /// mean + amplitude sin(omega t + phase): exactly one of `angular_frequency` and `frequency`.
+    Sine = "sine": &[&SINE_MEAN, &SINE_AMPLITUDE, &PHASE, &CYCLES],
+        &[&[&SINE_ANGULAR_FREQUENCY], &[&SINE_FREQUENCY]];
+    /// Straight lines between points: a `file`, or `times` and `values`.
+    Table = "table": &[], &[&[&FILE], &[&TIMES, &VALUES]];
 }
 
 static SEGMENT: Rows = Rows {
     means: " A part of the history.",
-    keys: SEGMENT_KEYS,
-    others: Others::ByWord(
-        &KIND,
-        &[
-            ("step", &STEP),
-            ("ramp", &RAMP),
-            ("polynomial", &POLYNOMIAL),
-            ("sine", &SINE),
-            ("table", &TABLE),
-        ],
-    ),
+    keys: &[&KIND],
+    block: &[],
+    others: BY_KIND,
 };
 
 rows! { _:
     /// The value held, or reached at the end.
     TARGET: Row<Dependent, Required> = "to", of_prescribed(Limits::NONE), Required;
     /// Duration of the segment.
-    DURATION: Row<Scalar, Required> = "duration", quantity(Time).above_zero(), Required;
+    DURATION: Row<Number, Required> = "duration", quantity(Time).above_zero(), Required;
     /// Coefficients of 1, t, t^2, ... in SI units, with t from the start of the segment.
-    COEFFICIENTS: Row<Array<Scalar>, Required> = "coefficients", list(number("2.0")), Required;
+    COEFFICIENTS: Row<Array<Number>, Required> = "coefficients", list(number("2.0")), Required;
 }
-
-static STEP: Rows = super::table(" A jump to a constant value.", &[&TARGET, &DURATION]);
-static RAMP: Rows = super::table(
-    " A straight line from the end of the previous segment.",
-    &[&TARGET, &DURATION],
-);
-static POLYNOMIAL: Rows = super::table(" A polynomial of time.", &[&COEFFICIENTS, &DURATION]);
 
 rows! { _:
     /// Mean.
@@ -207,34 +183,22 @@ rows! { _:
     /// Amplitude.
     SINE_AMPLITUDE: Row<Dependent, Required> = "amplitude", of_prescribed(Limits::ABOVE_ZERO), Required;
     /// Number of cycles, not necessarily whole.
-    CYCLES: Row<Scalar, Required> = "cycles", number("4.0").above_zero(), Required;
+    CYCLES: Row<Number, Required> = "cycles", number("4.0").above_zero(), Required;
 }
 
 rows! { _:
     /// Angular frequency; Hz is accepted too.
-    SINE_ANGULAR_FREQUENCY: Row<Scalar, Required> =
+    SINE_ANGULAR_FREQUENCY: Row<Number, Required> =
         "angular_frequency", quantity(AngularFrequency).above_zero(), Required;
     /// Frequency; rad/s is accepted too.
-    SINE_FREQUENCY: Row<Scalar, Required> = "frequency", quantity(Frequency).above_zero(), Required;
+    SINE_FREQUENCY: Row<Number, Required> = "frequency", quantity(Frequency).above_zero(), Required;
 }
-
-static SINE: Rows = Rows {
-    means: " mean + amplitude sin(omega t + phase): exactly one of `angular_frequency` and `frequency`.",
-    keys: &[&SINE_MEAN, &SINE_AMPLITUDE, &PHASE, &CYCLES],
-    others: Others::OneList(&[&[&SINE_ANGULAR_FREQUENCY], &[&SINE_FREQUENCY]]),
-};
 
 rows! { _:
     /// CSV file with the columns `time_s` and `load_n` or `approach_m`.
     FILE: Row<Text, Required> = "file", Text, Required;
     /// Times, in place of a file; the first is 0 s, two equal ones are a jump.
-    TIMES: Row<Array<Scalar>, Required> = "times", list(quantity(Time)), Required;
+    TIMES: Row<Array<Number>, Required> = "times", list(quantity(Time)), Required;
     /// Their values.
     VALUES: Row<Array<Dependent>, Required> = "values", list(of_prescribed(Limits::NONE)), Required;
 }
-
-static TABLE: Rows = Rows {
-    means: " Straight lines between points: a `file`, or `times` and `values`.",
-    keys: &[],
-    others: Others::OneList(&[&[&FILE], &[&TIMES, &VALUES]]),
-};

@@ -8,14 +8,6 @@ use crate::input::document::kind::{Choice, Table, Text};
 use crate::input::document::row::{Optional, Others, Required, Row, Rows};
 use crate::input::material_dynamic::Branches;
 
-const APPROACH_ZEROS: [(&str, ApproachZero); 2] = [
-    (
-        ApproachZero::FirstContact.name(),
-        ApproachZero::FirstContact,
-    ),
-    (ApproachZero::Unknown.name(), ApproachZero::Unknown),
-];
-
 rows! { IDENTIFY_KEYS:
     /// A table with columns of `sweep.csv`, with error columns if known, or a folder that holds `sweep.csv`. For a history: `time_s` and
     /// `approach_m`, or `load_n` under a prescribed approach.
@@ -25,7 +17,7 @@ rows! { IDENTIFY_KEYS:
     /// What smallest, largest and mean approaches of cycles are counted from; left out: unknown in a table of `analyse`, from first contact
     /// in any other. Where it is unknown they are not data, and the mean of a prescribed approach is that of `[drive]`.
     APPROACH_ZERO: Row<Choice<ApproachZero>, Optional> =
-        "approach_zero", Choice(&APPROACH_ZEROS), Optional;
+        "approach_zero", Choice(ApproachZero::NAMES), Optional;
 }
 
 static IDENTIFY_TABLE: Rows = super::table(" What was measured.", IDENTIFY_KEYS);
@@ -33,6 +25,7 @@ static IDENTIFY_TABLE: Rows = super::table(" What was measured.", IDENTIFY_KEYS)
 static MATERIAL_TABLE: Rows = Rows {
     means: " What is known of the material: its Poisson ratio, or a bulk modulus that is constant in time.",
     keys: &[],
+    block: &[],
     others: Others::OneList(&[&[&POISSON_RATIO], &[&BULK_MODULUS]]),
 };
 
@@ -51,6 +44,7 @@ static DRIVEN: Rows = Rows {
     means: " Of measured cycles an oscillation; rows with `drive_mean` and `drive_amplitude` have their own. Of a measured history \
             its `segments`, as in a scenario.",
     keys: &[&drive::PRESCRIBES],
+    block: &[],
     others: Others::OneList(&[
         &[&drive::MEAN, &drive::AMPLITUDE, &drive::PHASE, &drive::HOLD],
         &[&drive::SEGMENTS],

@@ -3,37 +3,24 @@
 use super::{fractional, rows};
 use crate::input::bulk_modulus::BulkModulus;
 use crate::input::document::kind::{
-    Array, Boolean, Choice, Dependent, Integer, Scalar, Table, Tables, Text, list, number, pair,
+    Array, Boolean, Choice, Dependent, Integer, Number, Table, Tables, Text, list, number, pair,
     quantity,
 };
-use crate::input::document::limits::Limits;
 use crate::input::document::row::{Optional, Or, Others, Required, Row, Rows};
 use crate::input::dynamic::{DynamicFormat, FORMATS};
 use crate::input::material_dynamic::{Branches, Shift};
-use crate::input::table_file::QUANTITIES;
 use crate::material::{MaterialFunction, ModulusKind};
 use crate::quantity::Dimension::{Compliance, Stress, Temperature, Time, Viscosity};
-use std::ops::Bound;
+use crate::quantity::key::{self, Limits};
+use contact_dma_core::words;
 
-/// What a modulus or a compliance is of.
-pub(crate) const MODULUS_KINDS: [(&str, ModulusKind); 2] = [
-    (ModulusKind::Longitudinal.name(), ModulusKind::Longitudinal),
-    (ModulusKind::Shear.name(), ModulusKind::Shear),
-];
-
-/// How the samples of a table enter.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Evaluation {
-    Fit,
-    Direct,
+words! {
+    /// How the samples of a table enter.
+    pub(crate) enum Evaluation {
+        Fit = "fit",
+        Direct = "direct",
+    }
 }
-
-const EVALUATIONS: [(&str, Evaluation); 2] =
-    [("fit", Evaluation::Fit), ("direct", Evaluation::Direct)];
-
-pub(super) const POISSON_RATIO_VALUE: Scalar = number("0.4")
-    .within(Limits::new(Bound::Excluded(-1.0), Bound::Included(0.5)))
-    .or_else("an incompressible material has poisson_ratio = 0.5");
 
 /// What to write where an element of a model with few of them has no strength or no time.
 const ELASTIC: &str =
@@ -58,18 +45,18 @@ rows! { MATERIAL_KEYS:
 
 rows! { _:
     /// Poisson ratio, constant in time.
-    POISSON_RATIO: Row<Scalar, Required> = "poisson_ratio", POISSON_RATIO_VALUE, Required;
+    POISSON_RATIO: Row<Number, Required> = "poisson_ratio", key::POISSON_RATIO, Required;
     /// Bulk modulus in place of the Poisson ratio, which then increases as the body relaxes: constant in time, or a table
     /// with the series of a relaxing one.
     BULK_MODULUS: Row<BulkModulus, Required> = "bulk_modulus", BulkModulus, Required;
     /// First and last time of the test that the series was fitted to, if known.
-    MEASURED: Row<Array<Scalar>, Optional> =
+    MEASURED: Row<Array<Number>, Optional> =
         "measured", pair(quantity(Time).above_zero().or_else(WINDOW), WINDOW), Optional;
 }
 
 rows! { BULK_KEYS:
     /// Equilibrium bulk modulus.
-    BULK_EQUILIBRIUM: Row<Scalar, Required> = "equilibrium", quantity(Stress).above_zero(), Required;
+    BULK_EQUILIBRIUM: Row<Number, Required> = "equilibrium", quantity(Stress).above_zero(), Required;
     /// The branches of the series.
     BULK_BRANCHES: Row<Tables, Required> = "branches", branches(&RELAXATION_BRANCH), Required;
 }
@@ -78,7 +65,7 @@ rows! { _:
     /// A material that comes with the program; `contact-dma material list` lists them.
     LIBRARY: Row<Text, Required> = "library", Text, Required;
     /// Poisson ratio in place of that of the library.
-    LIBRARY_POISSON_RATIO: Row<Scalar, Optional> = "poisson_ratio", POISSON_RATIO_VALUE, Optional;
+    LIBRARY_POISSON_RATIO: Row<Number, Optional> = "poisson_ratio", key::POISSON_RATIO, Optional;
 }
 
 rows! { _:
@@ -104,7 +91,7 @@ rows! { _:
         "isotherm", Tables { rows: &ISOTHERM, most: MOST_ISOTHERMS, instead: "" }, Required;
     /// Temperature of the body, for a material that is known at several temperatures. Left out: the reference temperature of the
     /// dynamic data, or the temperature of the only isotherm or of the library's data.
-    TEMPERATURE: Row<Scalar, Optional> = "temperature", quantity(Temperature).above_zero(), Optional;
+    TEMPERATURE: Row<Number, Optional> = "temperature", quantity(Temperature).above_zero(), Optional;
     /// Measured creep compliance or relaxation modulus.
     MEASURED_TABLE: Row<Table, Required> = "table", Table(&TABLE), Required;
 }
@@ -129,9 +116,9 @@ const fn alternatives(rows: &'static Rows) -> Tables {
 
 rows! { ELASTIC_KEYS:
     /// Young's modulus.
-    YOUNG: Row<Scalar, Required> = "modulus", quantity(Stress).above_zero(), Required;
+    YOUNG: Row<Number, Required> = "modulus", quantity(Stress).above_zero(), Required;
     /// Poisson ratio.
-    ELASTIC_POISSON_RATIO: Row<Scalar, Required> = "poisson_ratio", POISSON_RATIO_VALUE, Required;
+    ELASTIC_POISSON_RATIO: Row<Number, Required> = "poisson_ratio", key::POISSON_RATIO, Required;
 }
 
 rows! { _:
@@ -170,6 +157,7 @@ static ELASTIC_TABLE: Rows = super::table(" An elastic body.", ELASTIC_KEYS);
 pub(super) static INDENTER_MATERIAL: Rows = Rows {
     means: " What the indenter is made of, where it is not rigid: exactly one of `library`, `elastic`, `relaxation`, `creep`, `zener` and `isotherm`.",
     keys: MATERIAL_KEYS,
+    block: &[],
     others: Others::OneList(&[
         &[&LIBRARY, &LIBRARY_POISSON_RATIO, &TEMPERATURE],
         &[&ELASTIC_BODY],
@@ -187,6 +175,7 @@ pub(super) static MATERIAL: Rows = Rows {
     means: " Material of the half-space: exactly one of `library`, `elastic`, `relaxation`, `creep`, `maxwell`, `zener`, `kelvin_voigt`, \
             `fractional`, `isotherm`, `dynamic` and `table`.",
     keys: MATERIAL_KEYS,
+    block: &[],
     others: Others::OneList(&[
         &[&LIBRARY, &LIBRARY_POISSON_RATIO, &TEMPERATURE],
         &[&ELASTIC_BODY],
@@ -228,9 +217,9 @@ const fn branches(rows: &'static Rows) -> Tables {
 
 rows! { RELAXATION_KEYS:
     /// Whether the moduli are Young's or shear moduli.
-    MODULUS: Row<Choice<ModulusKind>, Required> = "modulus", Choice(&MODULUS_KINDS), Required;
+    MODULUS: Row<Choice<ModulusKind>, Required> = "modulus", Choice(ModulusKind::NAMES), Required;
     /// Equilibrium modulus; zero for a fluid.
-    EQUILIBRIUM: Row<Scalar, Required> = "equilibrium", quantity(Stress).not_negative(), Required;
+    EQUILIBRIUM: Row<Number, Required> = "equilibrium", quantity(Stress).not_negative(), Required;
     /// The branches of the series.
     RELAXATION_BRANCHES: Row<Tables, Required> = "branches", branches(&RELAXATION_BRANCH), Required;
     /// Series fitted to random realisations of the noise in the data. The spread of the losses computed with them is the uncertainty of
@@ -248,12 +237,12 @@ const fn replicas() -> Tables {
 
 rows! { REPLICA_KEYS:
     /// Equilibrium modulus.
-    REPLICA_EQUILIBRIUM: Row<Scalar, Required> = "equilibrium", quantity(Stress).not_negative(), Required;
+    REPLICA_EQUILIBRIUM: Row<Number, Required> = "equilibrium", quantity(Stress).not_negative(), Required;
     /// Moduli of the branches.
-    REPLICA_MODULI: Row<Array<Scalar>, Required> =
+    REPLICA_MODULI: Row<Array<Number>, Required> =
         "moduli", list(quantity(Stress).above_zero().or_else(NO_BRANCH)), Required;
     /// Relaxation times of the branches.
-    REPLICA_TIMES: Row<Array<Scalar>, Required> =
+    REPLICA_TIMES: Row<Array<Number>, Required> =
         "times", list(quantity(Time).above_zero().or_else(NO_BRANCH)), Required;
 }
 
@@ -261,14 +250,14 @@ static REPLICA: Rows = super::table(" A series, its branches as two lists.", REP
 
 rows! { _:
     /// Temperature at which the series holds.
-    ISOTHERM_TEMPERATURE: Row<Scalar, Required> =
+    ISOTHERM_TEMPERATURE: Row<Number, Required> =
         "temperature", quantity(Temperature).above_zero(), Required;
     /// Shift of the times of the series with temperature: c1 and c2 (K) of the law of Williams, Landel and Ferry about its own
     /// temperature, log10 a_T = -c1 (T - T0)/(c2 + T - T0).
-    ISOTHERM_WLF: Row<Array<Scalar>, Optional> =
+    ISOTHERM_WLF: Row<Array<Number>, Optional> =
         "wlf", Array { entries: 2..=2, ..list(number("8.86").above_zero()) }, Optional;
     /// The same by the law of Arrhenius, with this activation energy in J/mol.
-    ISOTHERM_ACTIVATION_ENERGY: Row<Scalar, Optional> = "activation_energy", number("120e3").above_zero(), Optional;
+    ISOTHERM_ACTIVATION_ENERGY: Row<Number, Optional> = "activation_energy", number("120e3").above_zero(), Optional;
 }
 
 const COLDEST_FIRST: &str =
@@ -277,7 +266,7 @@ const COLDEST_FIRST: &str =
 rows! { _:
     /// Lowest and highest temperature of the isotherms that the series and its shift come from, if known; a sweep or history at a
     /// temperature outside is warned of.
-    MEASURED_TEMPERATURES: Row<Array<Scalar>, Optional> =
+    MEASURED_TEMPERATURES: Row<Array<Number>, Optional> =
         "measured_temperatures", pair(quantity(Temperature).above_zero().or_else(COLDEST_FIRST), COLDEST_FIRST), Optional;
 }
 
@@ -307,13 +296,13 @@ static RELAXATION_SERIES: Rows = super::table(
 
 rows! { _:
     /// Modulus of the branch.
-    BRANCH_MODULUS: Row<Scalar, Required> =
+    BRANCH_MODULUS: Row<Number, Required> =
         "modulus", quantity(Stress).above_zero().or_else(NO_BRANCH), Required;
     /// Creep compliance of the branch.
-    BRANCH_COMPLIANCE: Row<Scalar, Required> =
+    BRANCH_COMPLIANCE: Row<Number, Required> =
         "compliance", quantity(Compliance).above_zero().or_else(NO_BRANCH), Required;
     /// Relaxation time, or retardation time of a creep series.
-    BRANCH_TIME: Row<Scalar, Required> =
+    BRANCH_TIME: Row<Number, Required> =
         "time", quantity(Time).above_zero().or_else(NO_BRANCH), Required;
 }
 
@@ -322,12 +311,12 @@ static CREEP_BRANCH: Rows = super::table(" A branch.", &[&BRANCH_COMPLIANCE, &BR
 
 rows! { CREEP_KEYS:
     /// Whether the compliances are uniaxial or in shear.
-    COMPLIANCE: Row<Choice<ModulusKind>, Required> = "compliance", Choice(&MODULUS_KINDS), Required;
+    COMPLIANCE: Row<Choice<ModulusKind>, Required> = "compliance", Choice(ModulusKind::NAMES), Required;
     /// Instantaneous compliance.
-    INSTANTANEOUS: Row<Scalar, Required> =
+    INSTANTANEOUS: Row<Number, Required> =
         "instantaneous", quantity(Compliance).not_negative(), Required;
     /// Viscosity of a fluid, which adds t / viscosity to the compliance.
-    VISCOSITY: Row<Scalar, Optional> =
+    VISCOSITY: Row<Number, Optional> =
         "viscosity", quantity(Viscosity).above_zero().or_else("leave the key out for a solid"), Optional;
     /// The branches of the series.
     CREEP_BRANCHES: Row<Tables, Required> = "branches", branches(&CREEP_BRANCH), Required;
@@ -342,17 +331,17 @@ static CREEP_SERIES: Rows = super::table(
     &[&INSTANTANEOUS, &VISCOSITY, &CREEP_BRANCHES],
 );
 
-const ELEMENT: Scalar = quantity(Stress).above_zero().or_else(ELASTIC);
+const ELEMENT: Number = quantity(Stress).above_zero().or_else(ELASTIC);
 
 rows! { _:
     /// Shear modulus of the spring.
-    MAXWELL_MODULUS: Row<Scalar, Required> = "modulus", ELEMENT, Required;
+    MAXWELL_MODULUS: Row<Number, Required> = "modulus", ELEMENT, Required;
     /// Shear modulus of the spring.
-    SPRING: Row<Scalar, Required> = "spring", ELEMENT, Required;
+    SPRING: Row<Number, Required> = "spring", ELEMENT, Required;
     /// Shear modulus of the spring in the Kelvin unit.
-    KELVIN_SPRING: Row<Scalar, Required> = "kelvin_spring", ELEMENT, Required;
+    KELVIN_SPRING: Row<Number, Required> = "kelvin_spring", ELEMENT, Required;
     /// Viscosity over modulus: relaxation time of a Maxwell body, retardation time of a Kelvin unit.
-    ELEMENT_TIME: Row<Scalar, Required> =
+    ELEMENT_TIME: Row<Number, Required> =
         "time", quantity(Time).above_zero().or_else(ELASTIC), Required;
 }
 
@@ -371,12 +360,12 @@ static KELVIN_VOIGT_TABLE: Rows = super::table(
 
 rows! { TABLE_KEYS:
     /// What the data are of.
-    QUANTITY: Row<Choice<MaterialFunction>, Required> = "quantity", Choice(&QUANTITIES), Required;
+    QUANTITY: Row<Choice<MaterialFunction>, Required> = "quantity", Choice(MaterialFunction::NAMES), Required;
     /// Whether they are uniaxial or in shear.
-    TABLE_MODULUS: Row<Choice<ModulusKind>, Required> = "modulus", Choice(&MODULUS_KINDS), Required;
+    TABLE_MODULUS: Row<Choice<ModulusKind>, Required> = "modulus", Choice(ModulusKind::NAMES), Required;
     /// `fit`: a series is fitted and its misfit reported with the results; `direct` (single histories only): the samples are used directly.
     EVALUATION: Row<Choice<Evaluation>, Or<Evaluation>> =
-        "evaluation", Choice(&EVALUATIONS), Or(Evaluation::Fit);
+        "evaluation", Choice(Evaluation::NAMES), Or(Evaluation::Fit);
     /// Whether to fit a fluid; left out: as the data indicate, a solid if they do not decide.
     FLOW: Row<Boolean, Optional> = "flow", Boolean, Optional;
 }
@@ -385,7 +374,7 @@ rows! { _:
     /// CSV file with the columns `time_s` and `creep_compliance_per_pa` or `relaxation_modulus_pa`, or in other units.
     FILE: Row<Text, Required> = "file", Text, Required;
     /// Times of the samples, in place of a file.
-    TIMES: Row<Array<Scalar>, Required> = "times", list(quantity(Time)), Required;
+    TIMES: Row<Array<Number>, Required> = "times", list(quantity(Time)), Required;
     /// Their values.
     VALUES: Row<Array<Dependent>, Required> =
         "values", list(Dependent { dimensions: &[Compliance, Stress], limits: Limits::NONE }), Required;
@@ -394,6 +383,7 @@ rows! { _:
 static TABLE: Rows = Rows {
     means: " Measured data: a `file`, or `times` and `values`.",
     keys: TABLE_KEYS,
+    block: &[],
     others: Others::OneList(&[&[&FILE], &[&TIMES, &VALUES]]),
 };
 
@@ -401,9 +391,9 @@ rows! { DYNAMIC_KEYS:
     /// Format of the files; left out: detected from their content.
     FORMAT: Row<Choice<DynamicFormat>, Optional> = "format", Choice(&FORMATS), Optional;
     /// Whether the moduli are Young's or shear moduli.
-    DYNAMIC_MODULUS: Row<Choice<ModulusKind>, Required> = "modulus", Choice(&MODULUS_KINDS), Required;
+    DYNAMIC_MODULUS: Row<Choice<ModulusKind>, Required> = "modulus", Choice(ModulusKind::NAMES), Required;
     /// Temperature of the master curve; left out: that of the middle isotherm.
-    REFERENCE_TEMPERATURE: Row<Scalar, Optional> =
+    REFERENCE_TEMPERATURE: Row<Number, Optional> =
         "reference_temperature", quantity(Temperature).above_zero(), Optional;
     /// How isotherms are shifted onto one curve: each individually (`free`, the default), by a law fitted to the data, not at all, or by
     /// factors from a file.
@@ -432,6 +422,7 @@ rows! { _:
 static DYNAMIC_TABLE: Rows = Rows {
     means: " Measured storage and loss modulus: a `file`, or `files`.",
     keys: DYNAMIC_KEYS,
+    block: &[],
     others: Others::OneList(&[&[&DYNAMIC_FILE], &[&DYNAMIC_FILES]]),
 };
 

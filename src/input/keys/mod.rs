@@ -1,18 +1,17 @@
 //! Every key of the input files, once: what it is called, what may stand under it, what counts without it, what it means and
 //! which others it excludes. Reading, JSON Schema, the reference in the guides and the words of the fuzzers come from here.
 
-pub(crate) mod adhesion;
 pub(crate) mod drive;
 pub(super) mod fractional;
 pub(crate) mod identify;
 pub(super) mod indenter;
-pub(super) mod layer;
 pub(crate) mod material;
 pub(super) mod settings;
 pub(super) mod setup;
 
 use super::document::kind::{Table, Text};
 use super::document::row::{List, Optional, Others, Required, Row, Rows};
+use contact_dma_core::words;
 
 /// Rows as statics, their meaning being their documentation; with a name before the colon, also the list of them.
 macro_rules! rows {
@@ -34,37 +33,57 @@ macro_rules! rows {
 }
 pub(in crate::input) use rows;
 
+/// A key whose word decides which others its table has: the enum of its words, its row, and the keys that each word brings.
+macro_rules! choice {
+    ($(#[doc = $means:literal])+ $row:ident = $key:literal, $name:ident, $others:ident:
+        $( $(#[doc = $about:literal])+ $variant:ident = $word:literal: $keys:expr $(, $ways:expr)?; )+) => {
+        contact_dma_core::words! {
+            $(#[doc = $means])+
+            pub(crate) enum $name { $( $(#[doc = $about])+ $variant = $word ),+ }
+        }
+        $crate::input::keys::rows! { _:
+            $(#[doc = $means])+
+            $row: Row<Choice<$name>, Required> = $key, Choice($name::NAMES), Required;
+        }
+        const $others: Others = Others::ByWord(&$row, &[$(
+            ($word, &Rows {
+                means: concat!($($about),+),
+                keys: $keys,
+                block: &[],
+                others: $crate::input::keys::choice!(@ways $($ways)?),
+            })
+        ),+]);
+    };
+    (@ways) => { Others::None };
+    (@ways $ways:expr) => { Others::OneList($ways) };
+}
+pub(in crate::input) use choice;
+
 /// A table whose keys do not exclude one another.
 pub(super) const fn table(means: &'static str, keys: List) -> Rows {
     Rows {
         means,
         keys,
+        block: &[],
         others: Others::None,
     }
 }
 
-/// The kinds of input files.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FileKind {
-    /// A frequency sweep.
-    Sweep,
-    /// One drive history.
-    Scenario,
-    /// A material from measured cycles.
-    Identify,
-    /// Instrument and contact of measured loops.
-    Setup,
+words! {
+    /// The kinds of input files.
+    pub enum FileKind {
+        /// A frequency sweep.
+        Sweep = "sweep",
+        /// One drive history.
+        Scenario = "scenario",
+        /// A material from measured cycles.
+        Identify = "identify",
+        /// Instrument and contact of measured loops.
+        Setup = "setup",
+    }
 }
 
 impl FileKind {
-    /// All, as they are named on the command line.
-    pub const NAMES: [(&str, Self); 4] = [
-        ("sweep", Self::Sweep),
-        ("scenario", Self::Scenario),
-        ("identify", Self::Identify),
-        ("setup", Self::Setup),
-    ];
-
     /// The keys of such a file.
     pub(crate) fn rows(self) -> &'static Rows {
         match self {
@@ -82,13 +101,13 @@ rows! { SWEEP_KEYS:
     /// Material of the half-space.
     MATERIAL: Row<Table, Required> = "material", Table(&material::MATERIAL), Required;
     /// The body is a layer on a base instead of a half-space.
-    LAYER: Row<Table, Optional> = "layer", Table(&layer::LAYER), Optional;
+    LAYER: Row<Table, Optional> = "layer", Table(&settings::LAYER), Optional;
     /// The indenter.
     INDENTER: Row<Table, Required> = "indenter", Table(&indenter::INDENTER), Required;
     /// The load or the approach: an oscillation about a mean.
     DRIVE: Row<Table, Required> = "drive", Table(&drive::HARMONIC), Required;
     /// Adhesion of a sphere under a prescribed load.
-    ADHESION: Row<Table, Optional> = "adhesion", Table(&adhesion::ADHESION), Optional;
+    ADHESION: Row<Table, Optional> = "adhesion", Table(&settings::ADHESION), Optional;
     /// The frequencies, and optional further axes.
     SWEEP: Row<Table, Required> = "sweep", Table(&drive::SWEEP), Required;
     /// Resolution of a cycle, and when it counts as stabilised.
@@ -104,7 +123,7 @@ pub(super) static SWEEP_FILE: Rows =
 
 rows! { _:
     /// The layer, where an axis needs one.
-    NEEDED_LAYER: Row<Table, Required> = "layer", Table(&layer::LAYER), Required;
+    NEEDED_LAYER: Row<Table, Required> = "layer", Table(&settings::LAYER), Required;
 }
 
 rows! { _:
@@ -136,7 +155,10 @@ static SCENARIO_FILE: Rows = table(
 
 /// The keys of the table that a dotted path names, `drive.segments[0]`: one answer for each kind of file that has it.
 pub(super) fn tables_at(path: &str) -> Vec<&'static Rows> {
-    let mut tables: Vec<_> = FileKind::NAMES.map(|(_, kind)| kind.rows()).to_vec();
+    let mut tables: Vec<_> = FileKind::NAMES
+        .iter()
+        .map(|(_, kind)| kind.rows())
+        .collect();
     for key in path.split('.').filter(|key| !key.is_empty()) {
         let key = key.split('[').next().unwrap_or(key);
         let below = tables.iter().flat_map(|rows| rows.all());

@@ -3,27 +3,28 @@
 use super::material::POISSON_RATIO;
 use super::rows;
 use crate::input::document::kind::{
-    Array, Boolean, Choice, Scalar, Table, Text, list, number, quantity,
+    Array, Boolean, Choice, Number, Table, Text, list, number, quantity,
 };
-use crate::input::document::limits::Limits;
 use crate::input::document::row::{Optional, Or, Row, Rows};
 use crate::quantity::Dimension::{Damping, FrameCompliance, Length, Mass, Speed, Stiffness, Time};
+use crate::quantity::key::Limits;
+use contact_dma_core::words;
 
 rows! { INSTRUMENT_KEYS:
     /// Compliance of frame and mount: the approach is the displacement minus compliance times load.
-    FRAME_COMPLIANCE: Row<Scalar, Or<f64>> = "frame_compliance", quantity(FrameCompliance).not_negative(), Or(0.0);
+    FRAME_COMPLIANCE: Row<Number, Or<f64>> = "frame_compliance", quantity(FrameCompliance).not_negative(), Or(0.0);
     /// Moving mass between force sensor and contact.
-    MASS: Row<Scalar, Or<f64>> = "mass", quantity(Mass).not_negative(), Or(0.0);
+    MASS: Row<Number, Or<f64>> = "mass", quantity(Mass).not_negative(), Or(0.0);
     /// Damping of the suspension of the moving part.
-    DAMPING: Row<Scalar, Or<f64>> = "damping", quantity(Damping).not_negative(), Or(0.0);
+    DAMPING: Row<Number, Or<f64>> = "damping", quantity(Damping).not_negative(), Or(0.0);
     /// Stiffness of the suspension; displacements are measured from its rest position.
-    STIFFNESS: Row<Scalar, Or<f64>> = "stiffness", quantity(Stiffness).not_negative(), Or(0.0);
+    STIFFNESS: Row<Number, Or<f64>> = "stiffness", quantity(Stiffness).not_negative(), Or(0.0);
     /// Delay of the approach channel relative to the load channel; negative if it is earlier.
-    TIME_LAG: Row<Scalar, Or<f64>> = "time_lag", quantity(Time), Or(0.0);
+    TIME_LAG: Row<Number, Or<f64>> = "time_lag", quantity(Time), Or(0.0);
     /// Thermal drift rate of the approach, if it was measured.
-    THERMAL_DRIFT: Row<Scalar, Or<f64>> = "thermal_drift", quantity(Speed), Or(0.0);
+    THERMAL_DRIFT: Row<Number, Or<f64>> = "thermal_drift", quantity(Speed), Or(0.0);
     /// Reading of the approach at first touch.
-    APPROACH_AT_TOUCH: Row<Scalar, Or<f64>> = "approach_at_touch", quantity(Length), Or(0.0);
+    APPROACH_AT_TOUCH: Row<Number, Or<f64>> = "approach_at_touch", quantity(Length), Or(0.0);
 }
 
 static INSTRUMENT_TABLE: Rows = super::table(
@@ -31,19 +32,14 @@ static INSTRUMENT_TABLE: Rows = super::table(
     INSTRUMENT_KEYS,
 );
 
-/// Where the contact radius comes from.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum RadiusFrom {
-    Geometry,
-    Column,
-    AreaFunction,
+words! {
+    /// Where the contact radius comes from.
+    pub(crate) enum RadiusFrom {
+        Geometry = "geometry",
+        Column = "column",
+        AreaFunction = "area-function",
+    }
 }
-
-const RADII: [(&str, RadiusFrom); 3] = [
-    ("geometry", RadiusFrom::Geometry),
-    ("column", RadiusFrom::Column),
-    ("area-function", RadiusFrom::AreaFunction),
-];
 
 /// Of the contact depth: 0 to 1, a flat punch having the latter.
 const EPSILON_LIMITS: Limits = Limits::between(0.0, 1.0);
@@ -53,9 +49,9 @@ const MOST_TERMS: usize = 9;
 rows! { _:
     /// Contact radius of the moduli: that of the shape at the mean approach, the mean of the column `contact_radius`, or from an area
     /// function.
-    RADIUS_FROM: Row<Choice<RadiusFrom>, Or<RadiusFrom>> = "radius", Choice(&RADII), Or(RadiusFrom::Geometry);
+    RADIUS_FROM: Row<Choice<RadiusFrom>, Or<RadiusFrom>> = "radius", Choice(RadiusFrom::NAMES), Or(RadiusFrom::Geometry);
     /// C₀, C₁, C₂, ... of A = C₀h² + C₁h + C₂h^½ + C₃h^¼ + ..., for h in m and A in m².
-    AREA_FUNCTION: Row<Array<Scalar>, Optional> =
+    AREA_FUNCTION: Row<Array<Number>, Optional> =
         "area_function",
         Array {
             entries: 1..=MOST_TERMS,
@@ -64,7 +60,7 @@ rows! { _:
         },
         Optional;
     /// ε of the contact depth h = δ₀ − ε W₀/S at which the area function is taken.
-    EPSILON: Row<Scalar, Or<f64>> = "epsilon", number("0.75").within(EPSILON_LIMITS), Or(0.75);
+    EPSILON: Row<Number, Or<f64>> = "epsilon", number("0.75").within(EPSILON_LIMITS), Or(0.75);
     /// Whether the bias of the small-amplitude formula is computed with the exact model, which takes some hundredths of a second per record.
     BIAS: Row<Boolean, Or<bool>> = "bias", Boolean, Or(true);
 }

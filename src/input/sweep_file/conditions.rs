@@ -9,16 +9,16 @@ use crate::indenter::Indenter;
 use crate::input::adhesion_block::{self, Attraction};
 use crate::input::axis::{self, Swept};
 use crate::input::diagnostic::Problems;
-use crate::input::document::Located;
 use crate::input::document::kind::Table;
 use crate::input::document::reader::TableReader;
 use crate::input::document::row::{Required, Row};
 use crate::input::document::tree;
+use crate::input::document::{Located, block};
 use crate::input::given::Given;
 use crate::input::harmonic_block::{self, Pressed};
 use crate::input::keys::drive::Prescribed;
 use crate::input::material_table::DirectSum;
-use crate::input::{indenter_block, keys, layer_block, material_block};
+use crate::input::{indenter_block, keys, material_block, solver_block};
 use crate::material::{Creep, Material};
 use crate::quantity::Dimension;
 use crate::simulation::body_material::BodyMaterial;
@@ -86,7 +86,7 @@ impl<'a> Blocks<'a> {
         let layer = file.layer(root);
         let has_indenter_material =
             (indenter_material.as_ref()).is_some_and(|over| over.all().any(Option::is_some));
-        layer_block::refuse_second_body(root, has_indenter_material);
+        solver_block::refuse_second_body(root, has_indenter_material);
         let indenter_material = indenter_material.filter(|over| {
             let mut bodies = over.all().flatten();
             bodies.all(|body| check_contact(file.problems, body))
@@ -403,7 +403,7 @@ impl File<'_> {
         let swept = self.swept(Block::Layer);
         match root.has(&keys::LAYER) || !swept.is_empty() {
             true => self.block(root, &keys::NEEDED_LAYER, swept, |t| {
-                layer_block::read(t).map(Some)
+                block::read(t, None).map(Some)
             }),
             false => Some(Over::same(None)),
         }

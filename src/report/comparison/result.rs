@@ -224,7 +224,7 @@ impl SweepTable {
     /// The unit of the frequencies that come first.
     pub(super) fn unit(&self) -> FrequencyUnit {
         let first = self.columns.first();
-        let units = FrequencyUnit::NAMES.map(|(_, unit)| unit).into_iter();
+        let units = FrequencyUnit::NAMES.iter().map(|(_, unit)| *unit);
         let mut of_first = units.filter(|unit| first.is_some_and(|name| name == unit.column()));
         of_first.next().unwrap_or_default()
     }

@@ -132,7 +132,7 @@ pub(super) fn body(layer: Option<LayerPlan>) -> Markup {
     let mut facts = Facts::default();
     facts.add("body", format!("a layer {}", layer.lies(|_| false)));
     facts.add("thickness", plain(layer.thickness_m, Dimension::Length, 6));
-    if let Some(base) = layer.yielding {
+    if let Some(base) = layer.yielding() {
         facts.add("Poisson ratio of the base", base.poisson_ratio.to_string());
     }
     facts.html()

@@ -34,25 +34,19 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use serde::{Deserialize, Serialize};
 
+use crate::words;
+
 use super::love::{GAUSS_8, quadrature, rectangle_displacement_m, rule_at};
 
-/// How a layer lies on its rigid base.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Base {
-    /// The layer cannot move along the base.
-    Bonded,
-    /// The layer slides along the base, and cannot leave it.
-    Frictionless,
-}
-
-impl Base {
-    /// The name as written in a sweep file.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Bonded => "bonded",
-            Self::Frictionless => "frictionless",
-        }
+words! {
+    /// How a layer lies on its rigid base.
+    #[derive(Serialize, Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    pub enum Base {
+        /// The layer cannot move along the base.
+        Bonded = "bonded",
+        /// The layer slides along the base, and cannot leave it.
+        Frictionless = "frictionless",
     }
 }
 

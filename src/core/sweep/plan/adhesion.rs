@@ -14,17 +14,21 @@
 
 use std::f64::consts::TAU;
 
+use crate::block;
 use crate::indenter::Indenter;
 use crate::quantity::Dimension;
-use crate::quantity::setting::{Table, Value};
+use crate::quantity::key::{Kind, quantity};
 
-/// Work of adhesion, and how near the surfaces come.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AdhesionPlan {
-    /// w, J/m^2.
-    pub work_j_per_m2: f64,
-    /// z0, m.
-    pub equilibrium_distance_m: f64,
+block! {
+    /// Adhesion of a sphere under a prescribed load, by the theory of Derjaguin, Muller and Toporov.
+    #[derive(Copy)]
+    pub struct AdhesionPlan in "adhesion" {
+        /// Work of adhesion: energy to separate a unit area.
+        work_j_per_m2: f64 => "work", Kind::Number(quantity(Dimension::EnergyPerArea).above_zero());
+        /// Equilibrium distance of the surfaces, used in the Tabor parameter.
+        equilibrium_distance_m: f64 = AdhesionPlan::EQUILIBRIUM_DISTANCE_M =>
+            "equilibrium_distance", Kind::Number(quantity(Dimension::Length).above_zero());
+    }
 }
 
 impl AdhesionPlan {
@@ -42,19 +46,6 @@ impl AdhesionPlan {
         let radius_m = pull_off_n / (TAU * self.work_j_per_m2);
         let ratio = self.work_j_per_m2 / contact_modulus_pa;
         (radius_m * ratio * ratio / self.equilibrium_distance_m.powi(3)).cbrt()
-    }
-
-    /// The `[adhesion]` block.
-    pub(crate) fn table(&self) -> Table {
-        let Self {
-            work_j_per_m2,
-            equilibrium_distance_m,
-        } = *self;
-        let work = Value::Quantity(work_j_per_m2, Dimension::EnergyPerArea);
-        let distance = Value::Quantity(equilibrium_distance_m, Dimension::Length);
-        Table::new("adhesion")
-            .with("work", work)
-            .with("equilibrium_distance", distance)
     }
 }
 

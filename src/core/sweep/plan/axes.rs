@@ -9,6 +9,7 @@ use super::{Condition, SweepPlan};
 use crate::drive::{Control, DriveError, HarmonicDrive};
 use crate::quantity::Dimension;
 use crate::sweep::plan::resolved::drive_dimension;
+use crate::words;
 
 /// Axes besides the frequency, at most.
 pub const MOST: usize = 4;
@@ -48,13 +49,14 @@ pub struct Varied {
     pub names: Arc<[String]>,
 }
 
-/// The block of a sweep file that a varied key belongs to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Block {
-    Material,
-    Layer,
-    Indenter,
-    Drive,
+words! {
+    /// The block of a sweep file that a varied key belongs to.
+    pub enum Block {
+        Material = "material",
+        Layer = "layer",
+        Indenter = "indenter",
+        Drive = "drive",
+    }
 }
 
 /// What an axis has under a condition.
@@ -188,18 +190,6 @@ impl<'de> Deserialize<'de> for AxisValues {
         };
         let too_many = || serde::de::Error::custom("more values than axes");
         Self::new(&values).ok_or_else(too_many)
-    }
-}
-
-impl Block {
-    /// The name as written in a sweep file.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Material => "material",
-            Self::Layer => "layer",
-            Self::Indenter => "indenter",
-            Self::Drive => "drive",
-        }
     }
 }
 

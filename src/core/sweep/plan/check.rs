@@ -1,12 +1,9 @@
 //! What a plan may say: the ranges of its values, known here to everyone who reads or builds one, and the check that every plan
 //! passes before anything is computed from it.
 
-use std::ops::{Range, RangeInclusive};
-
-use crate::contact::half_space::layer::YieldingBase;
-use crate::engine::{EngineKind, SolverPlan};
+use crate::quantity::block::{Block, Refused};
 use crate::sweep::plan::contact::ContactPlan;
-use crate::sweep::plan::{Condition, CyclePlan, Method, SweepPlan};
+use crate::sweep::plan::{Condition, SweepPlan};
 
 /// Why a plan is refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -20,12 +17,6 @@ pub enum PlanError {
         value: f64,
         unit: &'static str,
     },
-    #[error(
-        "a base that yields is bonded to its layer, has from {} to {} of its shear modulus, and a Poisson ratio above -1 and at most 0.5",
-        YieldingBase::SOFTEST,
-        YieldingBase::STIFFEST
-    )]
-    Base,
     #[error(
         "the {what} {value} does not follow {before} in ascending order; give each once, the smallest first"
     )]
@@ -43,18 +34,10 @@ pub enum PlanError {
         SweepPlan::MAX_CASES
     )]
     Cases { cases: usize },
-    #[error("{what} = {value}; it must be {range}")]
-    OutOfRange {
-        what: &'static str,
-        value: String,
-        range: String,
-    },
+    #[error(transparent)]
+    Block(#[from] Refused),
     #[error("adhesion is known of a sphere under a prescribed load only")]
     AdhesionOfOther,
-    #[error(
-        "a cycle by its number is one of a march, and the method is a direct search, which knows no such cycles"
-    )]
-    CycleOfASearch,
 }
 
 impl SweepPlan {
@@ -100,45 +83,7 @@ impl SweepPlan {
         contacts.try_for_each(ContactPlan::check)?;
         self.base.contact.check()?;
         self.cycle.check()?;
-        self.solver.check()
-    }
-}
-
-impl CyclePlan {
-    pub const STEPS: RangeInclusive<usize> = 8..=1_000_000;
-    pub const MAX_CYCLES: RangeInclusive<usize> = 1..=100_000_000;
-    /// Below 1, and above what rounding leaves.
-    pub const TOLERANCE: Range<f64> = 1e-13..1.0;
-    /// Below 1, and above what the finest resolution could reach.
-    pub const ACCURACY: Range<f64> = 1e-8..1.0;
-
-    fn check(&self) -> Result<(), PlanError> {
-        check_count("steps per cycle", self.steps, &Self::STEPS)?;
-        check_count("most cycles", self.max_cycles, &Self::MAX_CYCLES)?;
-        if let Some(cycle) = self.at_cycle {
-            check_count("recorded cycle", cycle, &Self::MAX_CYCLES)?;
-            if self.method == Method::Direct {
-                return Err(PlanError::CycleOfASearch);
-            }
-        }
-        check_ratio("tolerance of the cycle", self.tolerance, &Self::TOLERANCE)?;
-        let accuracy = self.accuracy.unwrap_or(Self::ACCURACY.start);
-        check_ratio("accuracy", accuracy, &Self::ACCURACY)
-    }
-}
-
-impl SolverPlan {
-    pub const SPRINGS: RangeInclusive<usize> = 10..=10_000;
-    pub const CELLS: RangeInclusive<usize> = 8..=4096;
-    pub const TOLERANCE: Range<f64> = CyclePlan::TOLERANCE;
-
-    pub(crate) fn check(&self) -> Result<(), PlanError> {
-        match self.engine {
-            EngineKind::Axisymmetric => check_count("springs", self.springs, &Self::SPRINGS)?,
-            EngineKind::HalfSpace => check_count("cells", self.cells, &Self::CELLS)?,
-        }
-        let tolerance = self.tolerance.unwrap_or(Self::TOLERANCE.start);
-        check_ratio("tolerance of an instant", tolerance, &Self::TOLERANCE)
+        Ok(self.solver.check_used()?)
     }
 }
 
@@ -163,32 +108,6 @@ fn check_order(what: &str, values: &[f64]) -> Result<(), PlanError> {
             value: pair[1],
         }),
         None => Ok(()),
-    }
-}
-
-pub(crate) fn check_count(
-    what: &'static str,
-    value: usize,
-    range: &RangeInclusive<usize>,
-) -> Result<(), PlanError> {
-    match range.contains(&value) {
-        true => Ok(()),
-        false => Err(PlanError::OutOfRange {
-            what,
-            value: value.to_string(),
-            range: format!("from {} to {}", range.start(), range.end()),
-        }),
-    }
-}
-
-fn check_ratio(what: &'static str, value: f64, range: &Range<f64>) -> Result<(), PlanError> {
-    match range.contains(&value) {
-        true => Ok(()),
-        false => Err(PlanError::OutOfRange {
-            what,
-            value: format!("{value:e}"),
-            range: format!("at least {:e} and below {}", range.start, range.end),
-        }),
     }
 }
 
@@ -226,7 +145,10 @@ mod tests {
         assert!(omegas(&[1.0, 0.25]).contains("0.25 does not follow 1"));
         assert!(omegas(&[1.0, 1.0]).contains("give each once"));
         let steps = refused(|plan| plan.cycle.steps = 0).unwrap();
-        assert_eq!(steps, "steps per cycle = 0; it must be from 8 to 1000000");
+        assert_eq!(
+            steps,
+            "cycle.steps = 0; it must be an integer from 8 to 1000000"
+        );
         assert!(refused(|plan| plan.cycle.max_cycles = 0).is_some());
         assert!(refused(|plan| plan.cycle.tolerance = f64::NAN).is_some());
         assert!(refused(|plan| plan.cycle.accuracy = Some(1.0)).is_some());

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::indenter::Indenter;
+use crate::quantity::block::Block as _;
 use crate::quantity::setting::Table;
 use crate::sweep::plan::adhesion::AdhesionPlan;
 use crate::sweep::plan::check::PlanError;
@@ -44,7 +45,13 @@ impl<M> ContactPlan<M> {
 
     /// Checks every value that is not checked where it is made.
     pub(crate) fn check(&self) -> Result<(), PlanError> {
-        self.layer.map_or(Ok(()), |layer| layer.check())
+        if let Some(layer) = self.layer {
+            layer.check()?;
+        }
+        if let Some(adhesion) = self.adhesion {
+            adhesion.check()?;
+        }
+        Ok(())
     }
 
     /// The blocks of a resolved file, but for the material's, where this is the one of what the indenter is made of.

@@ -3,6 +3,7 @@
 
 use crate::quantity::setting::{Table, Value};
 use crate::quantity::{Dimension, FrequencyUnit};
+use crate::words;
 
 /// What the `[figures]` table asks for. Where it asks for nothing, figures are 800 px wide with text of 16 px (211.7 mm and 12 pt
 /// on a screen of 96 dpi), as SVG and as PNG of one and of two pixels per px; PDF is there to be asked for.
@@ -26,33 +27,23 @@ pub struct FigurePlan {
     pub titles: bool,
 }
 
-/// A form in which pictures are written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Format {
-    Svg,
-    Png,
-    /// Of the same size as the SVG; its text is text.
-    Pdf,
+words! {
+    /// A form in which pictures are written.
+    pub enum Format {
+        Svg = "svg",
+        Png = "png",
+        /// Of the same size as the SVG; its text is text.
+        Pdf = "pdf",
+    }
 }
 
-/// What the axes of figures are in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AxisUnits {
-    Si,
-    /// Units of the elastic contact that the same indenter makes on a body as stiff as this one is at once.
-    Normalised,
-}
-
-impl Format {
-    /// All, as sweep files name them.
-    pub const NAMES: [(&'static str, Self); 3] =
-        [("svg", Self::Svg), ("png", Self::Png), ("pdf", Self::Pdf)];
-}
-
-impl AxisUnits {
-    /// All, as sweep files name them.
-    pub const NAMES: [(&'static str, Self); 2] =
-        [("si", Self::Si), ("normalised", Self::Normalised)];
+words! {
+    /// What the axes of figures are in.
+    pub enum AxisUnits {
+        Si = "si",
+        /// Units of the elastic contact that the same indenter makes on a body as stiff as this one is at once.
+        Normalised = "normalised",
+    }
 }
 
 impl Default for FigurePlan {

@@ -3,20 +3,31 @@
 //! Base and layer relax in proportion, or the base does not yield at all, and Poisson ratios are constant: space and time separate as
 //! on the half-space, and everything but the influence of a load on its surroundings stays as it is.
 
+use crate::block;
 use crate::contact::half_space::layer::{Base, Layer, YieldingBase};
 use crate::engine::EngineError;
-use crate::quantity::setting::{Table, Value};
+use crate::quantity::block::Conflict;
+use crate::quantity::key::{Kind, Limits, POISSON_RATIO, number, quantity};
 use crate::quantity::{Dimension, format_human};
-use crate::sweep::plan::check::{PlanError, check_positive};
 
-/// A layer of the plan's material on a base.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LayerPlan {
-    /// m.
-    pub thickness_m: f64,
-    pub base: Base,
-    /// What the base is made of, where it is not rigid.
-    pub yielding: Option<YieldingBase>,
+block! {
+    /// The body is a laterally infinite layer of the material on a base instead of a half-space. Half-space engine only.
+    #[derive(Copy)]
+    pub struct LayerPlan in "layer" unless in_conflict {
+        /// Thickness of the layer.
+        thickness_m: f64 => "thickness", Kind::Number(quantity(Dimension::Length).above_zero());
+        /// Interface to the base: `bonded`, or `frictionless`, sliding along a rigid base without separating.
+        base: Base = Base::Bonded => "base", Kind::Word(Base::WORDS);
+        /// Shear modulus of a deformable base over that of the layer, constant in time: base and layer relax in proportion. Left out: the
+        /// base is rigid.
+        base_modulus_ratio: Option<f64> = None => "base_modulus_ratio", Kind::Number(
+            number("4.0")
+                .within(Limits::between(YieldingBase::SOFTEST, YieldingBase::STIFFEST))
+                .or_else("leave out base_modulus_ratio and base_poisson_ratio where the base is rigid beside the layer")
+        );
+        /// Poisson ratio of a deformable base.
+        base_poisson_ratio: Option<f64> = None => "base_poisson_ratio", Kind::Number(POISSON_RATIO);
+    }
 }
 
 impl LayerPlan {
@@ -25,7 +36,7 @@ impl LayerPlan {
         Layer {
             thickness_m: self.thickness_m,
             base: self.base,
-            yielding: self.yielding,
+            yielding: self.yielding(),
             poisson_ratio,
         }
     }
@@ -45,29 +56,44 @@ impl LayerPlan {
         Ok(Some(plan.made_of(poisson_ratio)))
     }
 
-    /// The `[layer]` block.
-    pub(crate) fn table(&self) -> Table {
-        let Self {
-            thickness_m,
-            base,
-            yielding,
-        } = *self;
-        Table::new("layer")
-            .with("thickness", Value::Quantity(thickness_m, Dimension::Length))
-            .with("base", base.name())
-            .with_some(
+    /// What the base is made of, where it is not rigid.
+    pub fn yielding(&self) -> Option<YieldingBase> {
+        Some(YieldingBase {
+            modulus_ratio: self.base_modulus_ratio?,
+            poisson_ratio: self.base_poisson_ratio?,
+        })
+    }
+
+    fn in_conflict(&self) -> Option<Conflict> {
+        let (key, what, help) = match (self.base_modulus_ratio, self.base_poisson_ratio) {
+            (Some(_), Some(_)) if self.base == Base::Frictionless => (
                 "base_modulus_ratio",
-                yielding.map(|base| base.modulus_ratio),
-            )
-            .with_some(
+                "a base that yields is one that the layer is bonded to",
+                "write `base = \"bonded\"`, or leave out base_modulus_ratio and base_poisson_ratio",
+            ),
+            (None, None) | (Some(_), Some(_)) => return None,
+            (Some(_), None) => (
+                "base_modulus_ratio",
+                "a base that yields has a Poisson ratio too",
+                "add `base_poisson_ratio = 0.4`, that of the base",
+            ),
+            (None, Some(_)) => (
                 "base_poisson_ratio",
-                yielding.map(|base| base.poisson_ratio),
-            )
+                "a rigid base has no Poisson ratio",
+                "add `base_modulus_ratio = 4`, the shear modulus of the base over that of the layer, or leave out `base_poisson_ratio`",
+            ),
+        };
+        Some(Conflict {
+            key,
+            what: what.to_owned(),
+            because: "",
+            help,
+        })
     }
 
     /// How it lies, in words, without a modulus of the base that an axis varies.
     pub fn lies(&self, is_varied: impl Fn(&str) -> bool) -> String {
-        match (self.yielding, self.base) {
+        match (self.yielding(), self.base) {
             (Some(_), _) if is_varied("base_modulus_ratio") => {
                 "bonded to a base that yields".to_owned()
             }
@@ -92,18 +118,5 @@ impl LayerPlan {
             ),
         };
         format!("in a layer {of_thickness}{}", self.lies(is_varied))
-    }
-
-    pub(crate) fn check(&self) -> Result<(), PlanError> {
-        check_positive("layer's thickness", self.thickness_m, "m")?;
-        let Some(base) = self.yielding else {
-            return Ok(());
-        };
-        let is_known =
-            (YieldingBase::SOFTEST..=YieldingBase::STIFFEST).contains(&base.modulus_ratio);
-        match is_known && base.poisson_ratio > -1.0 && base.poisson_ratio <= 0.5 {
-            true if self.base == Base::Bonded => Ok(()),
-            _ => Err(PlanError::Base),
-        }
     }
 }

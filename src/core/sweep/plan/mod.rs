@@ -15,11 +15,14 @@ pub use axes::{Axes, AxisValue, AxisValues, Block, Varied};
 use std::sync::Arc;
 
 use crate::drive::HarmonicDrive;
-use crate::engine::SolverPlan;
+use crate::engine::{SolverPlan, TOLERANCE};
 use crate::indenter::Indenter;
 use crate::material::Material;
+use crate::quantity::block::Conflict;
+use crate::quantity::key::{Kind, Limits, tolerance};
 use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::figures::FigurePlan;
+use crate::{block_with_defaults, words};
 
 /// Cases of a small sweep, at most.
 pub const SMALL: usize = 200;
@@ -147,63 +150,53 @@ impl SweepPlan {
     }
 }
 
-/// How a cycle is resolved and when it counts as stabilised.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CyclePlan {
-    /// Time steps per cycle; where an accuracy is asked for, at least.
-    pub steps: usize,
+words! {
     /// How the stabilised cycle is reached.
-    pub method: Method,
-    /// Largest allowed estimated distance to the stabilised cycle: of the memory relative to the pressure, and of the loop to a
-    /// closed one relative to its area.
-    pub tolerance: f64,
-    /// Cycles of marching after which a frequency counts as not converged.
-    pub max_cycles: usize,
-    /// The cycle of the march, counted from 1, that is recorded as it is, in place of the stabilised one.
-    pub at_cycle: Option<usize>,
-    /// Whether every result is to be computed on coarser resolutions too, which gives its error.
-    pub error_bars: bool,
-    /// Largest allowed error of the loss, relative: steps and nodes are then chosen to reach it.
-    pub accuracy: Option<f64>,
-}
-
-/// How the stabilised cycle is reached.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[non_exhaustive]
-pub enum Method {
-    /// Searched: see [`crate::steady`].
-    Direct,
-    /// Waited for, cycle after cycle.
-    March,
-}
-
-impl Method {
-    /// The name as written in a sweep file.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Direct => "direct",
-            Self::March => "march",
-        }
+    #[derive(serde::Serialize, serde::Deserialize)]
+    #[serde(rename_all = "kebab-case")]
+    #[non_exhaustive]
+    pub enum Method {
+        /// Searched: see [`crate::steady`].
+        Direct = "direct",
+        /// Waited for, cycle after cycle.
+        March = "march",
     }
 }
 
-impl CyclePlan {
-    /// What counts where nothing is asked for.
-    pub const DEFAULT: Self = Self {
-        steps: 200,
-        method: Method::Direct,
-        tolerance: 1e-4,
-        max_cycles: 1000,
-        at_cycle: None,
-        error_bars: true,
-        accuracy: None,
-    };
+block_with_defaults! {
+    /// Resolution of a cycle, and when it counts as stabilised.
+    #[derive(Copy)]
+    pub struct CyclePlan in "cycle" unless in_conflict {
+        /// Time steps per cycle; with `accuracy`, the minimum.
+        steps: usize = 200 => "steps", Kind::Integer(8..=1_000_000);
+        /// `direct`: the stabilised cycle is solved for; `march`: cycles are computed one after another, after the hold, until it is reached.
+        method: Method = Method::Direct => "method", Kind::Word(Method::WORDS);
+        /// Largest distance to the stabilised cycle, for the memory and for the closure of the loop.
+        tolerance: f64 = 1e-4 => "tolerance", Kind::Number(tolerance("1e-4").within(TOLERANCE));
+        /// Number of marched cycles after which a frequency counts as not converged.
+        max_cycles: usize = 1000 => "max_cycles", Kind::Integer(1..=100_000_000);
+        /// With `method = "march"`: records this cycle after the hold, counted from 1, whether it is stabilised or not.
+        at_cycle: Option<usize> = None => "at_cycle", Kind::Integer(1..=100_000_000);
+        /// Whether every case is also solved with coarser steps and nodes to estimate its errors.
+        error_bars: bool = true => "error_bars", Kind::Flag;
+        /// Largest relative error of every loss: steps, and springs or cells, are chosen to reach it. Same as `--accuracy`.
+        accuracy: Option<f64> = None => "accuracy", Kind::Number(
+            tolerance("1e-3").within(ACCURACY).or_else("for example accuracy = 1e-3, a thousandth of the loss")
+        );
+    }
 }
 
-impl Default for CyclePlan {
-    fn default() -> Self {
-        Self::DEFAULT
+/// Below 1, and above what the finest resolution could reach.
+const ACCURACY: Limits = Limits::of(1e-8..1.0);
+
+impl CyclePlan {
+    fn in_conflict(&self) -> Option<Conflict> {
+        (self.at_cycle.is_some() && self.method == Method::Direct).then(|| Conflict {
+            key: "at_cycle",
+            what: "a cycle by its number needs `cycle.method = \"march\"`".to_owned(),
+            because: "a direct search knows no cycles before the stabilised one",
+            help: "add `method = \"march\"`, and in `[drive]` perhaps a `hold` before the first cycle",
+        })
     }
 }
 

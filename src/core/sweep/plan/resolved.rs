@@ -6,15 +6,15 @@ use std::fmt::Write;
 use sha2::{Digest, Sha256};
 
 use crate::drive::{Control, HarmonicDrive};
-use crate::engine::SolverPlan;
 use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::quantity::Dimension;
+use crate::quantity::block::Block as _;
 use crate::quantity::setting::{Setting, Table, Value, document};
 pub(crate) use crate::sweep::plan::material_text::compressibility;
 use crate::sweep::plan::material_text::{material_table, table_over_temperatures};
 pub use crate::sweep::plan::material_text::{material_text, material_text_without_poisson_ratio};
-use crate::sweep::plan::{Axes, AxisValue, Block, Condition, CyclePlan, SweepPlan, Varied};
+use crate::sweep::plan::{Axes, AxisValue, Block, Condition, SweepPlan, Varied};
 
 /// The plan as the text of a sweep file.
 pub fn resolved_text(plan: &SweepPlan) -> String {
@@ -30,7 +30,7 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         figures,
     } = plan;
     let (contact, axes) = (&base.contact, axes.as_ref());
-    let solver = solver_table(solver, contact.indenter.as_ref());
+    let solver = solver.table_for(contact.indenter.as_ref());
     let given = axes.map(|axes| &axes.given_blocks);
     let is_listed = |block| axes.is_some_and(|axes| axes.whole(block).is_some());
     let material = match given.and_then(|given| given.material.as_deref()) {
@@ -59,7 +59,7 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
     let listed = listed.flat_map(|(axis, varied)| listed_blocks(plan, axis, varied));
     let opening = [material, contact.layer, contact.indenter];
     let drive = [drive_table(&base.drive).toml(), contact.adhesion];
-    let settings = [cycle_table(cycle).toml(), solver.toml(), figures.text()];
+    let settings = [cycle.table().toml(), solver.toml(), figures.text()];
     let blocks = opening.into_iter().chain(drive).chain([sweep.toml()]);
     document(title, blocks.chain(listed).chain(settings))
 }
@@ -96,27 +96,6 @@ pub(crate) fn drive_table(drive: &HarmonicDrive) -> Table {
             Value::Quantity(drive.phase_rad(), Dimension::Angle),
         )
         .with("hold", Value::Quantity(drive.hold_s(), Dimension::Time))
-}
-
-/// The `[cycle]` block.
-pub(crate) fn cycle_table(cycle: &CyclePlan) -> Table {
-    let CyclePlan {
-        steps,
-        method,
-        tolerance,
-        max_cycles,
-        at_cycle,
-        error_bars,
-        accuracy,
-    } = *cycle;
-    Table::new("cycle")
-        .with("steps", steps)
-        .with("method", method.name())
-        .with("tolerance", Value::Tolerance(tolerance))
-        .with("max_cycles", max_cycles)
-        .with_some("at_cycle", at_cycle)
-        .with("error_bars", error_bars)
-        .with_some("accuracy", accuracy.map(Value::Tolerance))
 }
 
 /// The `[indenter.material]` block.
@@ -171,23 +150,6 @@ pub(crate) fn shape(indenter: &dyn Indenter) -> Vec<Setting> {
     let mut settings = vec![Setting::new("shape", indenter.shape())];
     settings.extend(indenter.parameters());
     settings
-}
-
-/// The `[solver]` block.
-pub(crate) fn solver_table(solver: &SolverPlan, indenter: &dyn Indenter) -> Table {
-    let SolverPlan {
-        engine,
-        cells,
-        springs,
-        time_rule,
-        tolerance,
-    } = *solver;
-    Table::new("solver")
-        .with("engine", engine.name())
-        .with_some("cells", indenter.own_cells().is_none().then_some(cells))
-        .with("springs", springs)
-        .with_some("tolerance", tolerance.map(Value::Tolerance))
-        .with("time_rule", time_rule.name())
 }
 
 /// What kind of quantity a drive's values are.

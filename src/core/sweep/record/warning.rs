@@ -126,7 +126,7 @@ impl Warning {
     /// What is to be said of an approach (m) into a layer on a rigid base, where the body is one: a base that yields takes its part of
     /// the approach.
     pub(crate) fn of_depth(layer: Option<LayerPlan>, approach_m: f64) -> Option<Self> {
-        let layer = layer.filter(|layer| layer.yielding.is_none())?;
+        let layer = layer.filter(|layer| layer.yielding().is_none())?;
         let part = approach_m / layer.thickness_m;
         (part > LARGEST_DEPTH && part.is_finite()).then_some(Self::DeepInLayer { part })
     }

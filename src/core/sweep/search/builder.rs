@@ -8,9 +8,10 @@ use crate::drive::{Control, HarmonicDrive};
 use crate::engine::{EngineKind, SolverPlan};
 use crate::indenter::Indenter;
 use crate::material::Material;
+use crate::quantity::block::Block as _;
 use crate::sweep::case::{Setup, SetupError};
 use crate::sweep::plan::adhesion::AdhesionPlan;
-use crate::sweep::plan::check::{PlanError, check_positive};
+use crate::sweep::plan::check::PlanError;
 use crate::sweep::plan::{Axes, Case, Method, SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::{self, Mode, Outcome, RunError};
@@ -119,7 +120,7 @@ impl Sweep {
     /// Time steps per cycle; where an accuracy is asked for, at least.
     ///
     /// # Errors
-    /// [`PlanError`] where the number is not in [`crate::sweep::plan::CyclePlan::STEPS`].
+    /// [`PlanError`] where the number is below 8 or above a million.
     pub fn steps(self, steps: usize) -> Result<Self, PlanError> {
         self.with(|plan| plan.cycle.steps = steps)
     }
@@ -131,11 +132,11 @@ impl Sweep {
     /// A work that is not positive and finite, another indenter than a sphere, a prescribed approach, a load at which the sphere comes
     /// off.
     pub fn attracted(self, work_j_per_m2: f64) -> Result<Self, SetupError> {
-        check_positive("work of adhesion", work_j_per_m2, "J/m^2")?;
         let adhesion = AdhesionPlan {
             work_j_per_m2,
             equilibrium_distance_m: AdhesionPlan::EQUILIBRIUM_DISTANCE_M,
         };
+        adhesion.check().map_err(PlanError::from)?;
         let pull_off_n = adhesion.pull_off_n(self.plan.base.contact.indenter.as_ref());
         let is_load = self.plan.base.drive.control() == Control::Load;
         let pull_off_n = pull_off_n.filter(|_| is_load);
@@ -157,7 +158,7 @@ impl Sweep {
     /// The axisymmetric engine, on this number of springs.
     ///
     /// # Errors
-    /// [`PlanError`] where the number is not in [`crate::engine::SolverPlan::SPRINGS`].
+    /// [`PlanError`] where the number is below 10 or above 10,000.
     pub fn springs(self, springs: usize) -> Result<Self, PlanError> {
         self.on(EngineKind::Axisymmetric, springs)
     }
@@ -165,7 +166,7 @@ impl Sweep {
     /// The half-space engine, on this number of cells along the longer side.
     ///
     /// # Errors
-    /// [`PlanError`] where the number is not in [`crate::engine::SolverPlan::CELLS`].
+    /// [`PlanError`] where the number is below 8 or above 4096.
     pub fn cells(self, cells: usize) -> Result<Self, PlanError> {
         self.on(EngineKind::HalfSpace, cells)
     }
@@ -173,7 +174,7 @@ impl Sweep {
     /// Steps and nodes such that the error of every loss stays below this part of it.
     ///
     /// # Errors
-    /// [`PlanError`] where the accuracy is not in [`crate::sweep::plan::CyclePlan::ACCURACY`].
+    /// [`PlanError`] where the accuracy is below 1e-8, or not below 1.
     pub fn accuracy(self, accuracy: f64) -> Result<Self, PlanError> {
         self.with(|plan| plan.cycle.accuracy = Some(accuracy))
     }

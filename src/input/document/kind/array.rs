@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 
 use serde_json::{Value as Json, json};
 
-use super::{Decided, Dependent, Describe, Kind, Scalar, Spot};
+use super::{Decided, Dependent, Describe, Kind, Number, Spot};
 use crate::input::diagnostic::{Diagnostics, Problems};
 use crate::input::document::Located;
 use crate::input::document::tree::{Node, Value};
@@ -153,9 +153,9 @@ impl<K: Kind> Kind for Array<K> {
 }
 
 impl Decided for Array<Dependent> {
-    type Kind = Array<Scalar>;
+    type Kind = Array<Number>;
 
-    fn of(&self, dimension: Dimension) -> Array<Scalar> {
+    fn of(&self, dimension: Dimension) -> Array<Number> {
         Array {
             item: self.item.of(dimension),
             entries: self.entries.clone(),

@@ -1,75 +1,23 @@
 //! Numbers: bare, or quantities with a unit, whose dimension another key may decide.
 
 use std::f64::consts::TAU;
+use std::ops::Bound;
 
 use serde_json::{Value as Json, json};
 
 use super::{Describe, Kind, Spot, must_be};
 use crate::input::diagnostic::{Diagnostic, Diagnostics};
-use crate::input::document::limits::Limits;
 use crate::input::document::tree::{Node, NumberFault, Value};
+use crate::quantity::key::{Limits, Number, quantity};
 use crate::quantity::{self, Dimension, QuantityError};
 
-/// A number: bare, or a quantity, which is a string with a unit or a bare number in SI units and is read as its SI value.
-#[derive(Clone, Copy)]
-pub(crate) struct Scalar {
-    dimension: Option<Dimension>,
-    limits: Limits,
-    /// In place of that of the dimension, as TOML.
-    example: Option<&'static str>,
+/// The number under a key.
+trait ReadNumber {
+    fn at(&self, node: &Node, spot: &Spot<'_>) -> Result<f64, Diagnostic>;
 }
 
-/// A quantity of any size.
-pub(crate) const fn quantity(dimension: Dimension) -> Scalar {
-    Scalar {
-        dimension: Some(dimension),
-        limits: Limits::NONE,
-        example: None,
-    }
-}
-
-/// A bare number of any size, with an example.
-pub(crate) const fn number(example: &'static str) -> Scalar {
-    Scalar {
-        dimension: None,
-        limits: Limits::NONE,
-        example: Some(example),
-    }
-}
-
-impl Scalar {
-    /// The same within limits.
-    pub(crate) const fn within(self, limits: Limits) -> Self {
-        Self { limits, ..self }
-    }
-
-    pub(crate) const fn above_zero(self) -> Self {
-        self.within(Limits::ABOVE_ZERO)
-    }
-
-    pub(crate) const fn not_negative(self) -> Self {
-        self.within(Limits::NOT_NEGATIVE)
-    }
-
-    /// The same with what to write in place of a value beyond the limits.
-    pub(crate) const fn or_else(self, instead: &'static str) -> Self {
-        self.within(self.limits.or_else(instead))
-    }
-
-    /// The same with another example than that of the dimension, as TOML.
-    pub(crate) const fn such_as(self, example: &'static str) -> Self {
-        Self {
-            example: Some(example),
-            ..self
-        }
-    }
-
-    /// `None` for a bare number.
-    pub(crate) fn dimension(&self) -> Option<Dimension> {
-        self.dimension
-    }
-
-    fn number(&self, node: &Node, spot: &Spot<'_>) -> Result<f64, Diagnostic> {
+impl ReadNumber for Number {
+    fn at(&self, node: &Node, spot: &Spot<'_>) -> Result<f64, Diagnostic> {
         let fault = |fault| number_fault(fault, self, node, spot);
         let help = || match self.dimension {
             None => self.advice(node, spot),
@@ -124,17 +72,13 @@ fn parse(text: &str, dimension: Dimension) -> Result<f64, QuantityError> {
     })
 }
 
-impl Describe for Scalar {
-    fn scalar(&self, _controlled: Dimension) -> Option<Scalar> {
+impl Describe for Number {
+    fn number(&self, _controlled: Dimension) -> Option<Number> {
         Some(*self)
     }
 
     fn expected(&self) -> String {
-        let limits = self.limits.qualify(self.dimension);
-        match self.dimension {
-            Some(dimension) => format!("{dimension}{limits}"),
-            None => format!("a number{limits}"),
-        }
+        self.expected()
     }
 
     fn example(&self) -> String {
@@ -146,7 +90,7 @@ impl Describe for Scalar {
     }
 
     fn schema(&self) -> Json {
-        let mut number = self.limits.schema();
+        let mut number = of_limits(&self.limits);
         number["type"] = json!("number");
         let Some(dimension) = self.dimension else {
             return number;
@@ -161,16 +105,16 @@ impl Describe for Scalar {
     }
 }
 
-impl Kind for Scalar {
+impl Kind for Number {
     type Value = f64;
 
     fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<f64, Diagnostics> {
-        let value = self.number(node, spot)?;
+        let value = self.at(node, spot)?;
         if self.limits.contains(value) {
             return Ok(value);
         }
         let message = format!("`{}` {}", spot.path, self.limits.rule(self.dimension));
-        let help = match self.limits.instead() {
+        let help = match self.limits.instead {
             "" => self.advice(node, spot),
             instead => instead.to_owned(),
         };
@@ -183,6 +127,19 @@ impl Kind for Scalar {
             None => json!(value),
         }
     }
+}
+
+/// Limits as a JSON Schema says them of a number.
+fn of_limits(limits: &Limits) -> Json {
+    let mut schema = json!({});
+    let mut say = |bound: Bound<f64>, included: &str, excluded: &str| match bound {
+        Bound::Included(limit) => schema[included] = json!(limit),
+        Bound::Excluded(limit) => schema[excluded] = json!(limit),
+        Bound::Unbounded => {}
+    };
+    say(limits.low, "minimum", "exclusiveMinimum");
+    say(limits.high, "maximum", "exclusiveMaximum");
+    schema
 }
 
 /// What a JSON Schema calls the texts of a dimension.
@@ -228,15 +185,15 @@ pub(crate) trait Decided {
 }
 
 impl Decided for Dependent {
-    type Kind = Scalar;
+    type Kind = Number;
 
-    fn of(&self, dimension: Dimension) -> Scalar {
+    fn of(&self, dimension: Dimension) -> Number {
         quantity(dimension).within(self.limits)
     }
 }
 
 impl Describe for Dependent {
-    fn scalar(&self, controlled: Dimension) -> Option<Scalar> {
+    fn number(&self, controlled: Dimension) -> Option<Number> {
         Some(self.of(controlled))
     }
 
@@ -260,7 +217,7 @@ impl Describe for Dependent {
 }
 
 /// A number that cannot be computed with.
-fn number_fault(fault: NumberFault, kind: &Scalar, node: &Node, spot: &Spot<'_>) -> Diagnostic {
+fn number_fault(fault: NumberFault, kind: &Number, node: &Node, spot: &Spot<'_>) -> Diagnostic {
     let example = kind.advice(node, spot);
     let (because, help) = match fault {
         NumberFault::NotANumber => ("`nan` is not a number", example),
