@@ -7,7 +7,7 @@ use super::Failure;
 use crate::input::diagnostic::Problems;
 use crate::input::document::Document;
 use crate::input::keys;
-use crate::input::keys::drive::SEGMENTS;
+use crate::input::segments_block::SEGMENTS;
 
 /// A kind of file by the command that takes it, and how it is known.
 #[derive(PartialEq)]

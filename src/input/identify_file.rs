@@ -10,11 +10,11 @@ use super::document::{Document, block};
 use super::given::Given;
 use super::harmonic_block::Pressed;
 use super::keys;
-use super::keys::drive::SEGMENTS;
 use super::keys::identify::{
     APPROACH_ZERO, DATA, IDENTIFY, IDENTIFY_BRANCHES, KNOWN_MATERIAL, MEASURED_DRIVE, MODEL_CYCLE,
 };
 use super::keys::material::BULK_MODULUS;
+use super::segments_block::SEGMENTS;
 use super::{
     bodies_block, harmonic_block, material_block, measured_history, measured_table, segments_block,
     solver_block,

@@ -184,6 +184,18 @@ pub(super) fn compressibility(block: &mut TableReader<'_>) -> Option<Compressibi
     block.value(&BULK_MODULUS).map(Compressibility::BulkModulus)
 }
 
+/// The Poisson ratio of a body that has no bulk modulus: it gives in to nothing at once. `None` where a problem was reported.
+fn poisson_ratio_alone(block: &mut TableReader<'_>) -> Option<Compressibility> {
+    if let Some(place) = block.key_location(&BULK_MODULUS) {
+        let message = "a Kelvin-Voigt body is given with its Poisson ratio";
+        (block.problems().at(&place, message))
+            .because("without instantaneous compliance no bulk modulus goes with it")
+            .help("write `poisson_ratio = 0.4` in place of `bulk_modulus`");
+        return None;
+    }
+    block.value(&POISSON_RATIO).map(Compressibility::from)
+}
+
 /// A material of the library, at each temperature of an axis where it knows several.
 fn library(
     block: &mut TableReader<'_>,
@@ -282,7 +294,10 @@ fn from_block(
         // Messages list it before those that are read first.
         block.has(&RELAXATION_ALTERNATIVE);
     }
-    let nu = compressibility(block);
+    let nu = match form {
+        Form::KelvinVoigt => poisson_ratio_alone(block),
+        _ => compressibility(block),
+    };
     let made = match form {
         Form::Library | Form::Elastic | Form::Isotherms | Form::Dynamic => return None,
         Form::Relaxation => {

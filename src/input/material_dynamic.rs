@@ -11,13 +11,13 @@ use super::document::Located;
 use super::document::kind::{Choice, Describe, Integer, Kind, Spot, Text};
 use super::document::reader::TableReader;
 use super::document::row::Rows;
+use super::document::row::table;
 use super::document::tree::{Node, Value};
 use super::dynamic::{self, DynamicFile, shift_factors_from_bytes};
 use super::keys::material::{
     DYNAMIC_BRANCHES, DYNAMIC_FILE, DYNAMIC_FILES, DYNAMIC_MODULUS, DYNAMIC_REPLICAS, FORMAT,
     REFERENCE_TEMPERATURE, SEED, SHIFT, SHIFT_FILE, SHIFT_KEYS, VERTICAL_SHIFT,
 };
-use super::keys::table;
 use super::material_temperature::AtTemperature;
 use crate::material::dynamic::master_curve::ShiftChoice;
 use crate::material::dynamic::{Characterisation, Choices, characterise};

@@ -60,7 +60,7 @@ mod measured_table;
 mod points;
 pub mod scenario_file;
 pub mod schema;
-mod segments_block;
+pub(crate) mod segments_block;
 pub mod setup_file;
 mod solver_block;
 pub mod sweep_file;

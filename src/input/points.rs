@@ -6,10 +6,10 @@ use super::diagnostic::{Diagnostic, Diagnostics};
 use super::document::kind::{Array, Describe, Kind, Number, Spot, list};
 use super::document::plain;
 use super::document::reader::TableReader;
+use super::document::row::table;
 use super::document::row::{Row, Rows};
 use super::document::tree::{Node, Value};
 use super::keys::drive::{FROM, POINTS, RANGE_KEYS, SPACING, TO};
-use super::keys::table;
 use crate::sweep::plan::SweepPlan;
 use contact_dma_core::words;
 

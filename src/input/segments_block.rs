@@ -1,20 +1,97 @@
-//! The `[drive]` block of a scenario file: a history of segments.
+//! The `[drive]` block of a scenario file: a history of segments; what each kind of them is made of, and how it is read.
 
 use std::f64::consts::TAU;
 
 use super::data_file;
 use super::diagnostic::{Location, Problems};
-
+use super::document::kind::{Array, Dependent, Number, Tables, Text, list, number, quantity};
 use super::document::reader::TableReader;
+use super::document::row::{Required, Row, Rows, choice, rows, table};
 use super::document::{Located, plain};
 use super::drive_table;
 use super::harmonic_block::scaled;
-use super::keys::drive::{
-    COEFFICIENTS, CYCLES, DURATION, FILE, KIND, PHASE, SEGMENTS, SINE_AMPLITUDE,
-    SINE_ANGULAR_FREQUENCY, SINE_FREQUENCY, SINE_MEAN, SegmentKind, TARGET, TIMES, VALUES,
-};
+use super::keys::drive::{PHASE, PRESCRIBES, of_prescribed};
 use crate::drive::{Control, HistoryError, Segment, SegmentProblem, SegmentedDrive};
-use crate::quantity::Dimension;
+use crate::quantity::Dimension::{self, AngularFrequency, Frequency, Time};
+use crate::quantity::key::Limits;
+
+/// More segments than this belong into a table.
+const MOST_SEGMENTS: usize = 10_000;
+
+rows! { _:
+    /// The segments, one after another; jumps between them are resolved exactly.
+    SEGMENTS: Row<Tables, Required> =
+        "segments",
+        Tables {
+            rows: &SEGMENT,
+            most: MOST_SEGMENTS,
+            instead: ", or a table: { kind = \"table\", file = \"drive.csv\" }",
+        },
+        Required;
+}
+
+pub(super) static HISTORY: Rows = table(
+    " A history of load or approach, starting at first touch.",
+    &[&PRESCRIBES, &SEGMENTS],
+);
+
+choice! {
+    /// The kind of the segment; what it needs is listed below.
+    KIND = "kind", SegmentKind, BY_KIND:
+    /// A jump to a constant value.
+    Step = "step": &[&TARGET, &DURATION];
+    /// A straight line from the end of the previous segment.
+    Ramp = "ramp": &[&TARGET, &DURATION];
+    /// A polynomial of time.
+    Polynomial = "polynomial": &[&COEFFICIENTS, &DURATION];
+    /// mean + amplitude sin(omega t + phase): exactly one of `angular_frequency` and `frequency`.
+    Sine = "sine": &[&SINE_MEAN, &SINE_AMPLITUDE, &PHASE, &CYCLES],
+        &[&[&SINE_ANGULAR_FREQUENCY], &[&SINE_FREQUENCY]];
+    /// Straight lines between points: a `file`, or `times` and `values`.
+    Table = "table": &[], &[&[&FILE], &[&TIMES, &VALUES]];
+}
+
+static SEGMENT: Rows = Rows {
+    means: " A part of the history.",
+    keys: &[&KIND],
+    block: &[],
+    others: BY_KIND,
+};
+
+rows! { _:
+    /// The value held, or reached at the end.
+    TARGET: Row<Dependent, Required> = "to", of_prescribed(Limits::NONE), Required;
+    /// Duration of the segment.
+    DURATION: Row<Number, Required> = "duration", quantity(Time).above_zero(), Required;
+    /// Coefficients of 1, t, t^2, ... in SI units, with t from the start of the segment.
+    COEFFICIENTS: Row<Array<Number>, Required> = "coefficients", list(number("2.0")), Required;
+}
+
+rows! { _:
+    /// Mean.
+    SINE_MEAN: Row<Dependent, Required> = "mean", of_prescribed(Limits::NONE), Required;
+    /// Amplitude.
+    SINE_AMPLITUDE: Row<Dependent, Required> = "amplitude", of_prescribed(Limits::ABOVE_ZERO), Required;
+    /// Number of cycles, not necessarily whole.
+    CYCLES: Row<Number, Required> = "cycles", number("4.0").above_zero(), Required;
+}
+
+rows! { _:
+    /// Angular frequency; Hz is accepted too.
+    SINE_ANGULAR_FREQUENCY: Row<Number, Required> =
+        "angular_frequency", quantity(AngularFrequency).above_zero(), Required;
+    /// Frequency; rad/s is accepted too.
+    SINE_FREQUENCY: Row<Number, Required> = "frequency", quantity(Frequency).above_zero(), Required;
+}
+
+rows! { _:
+    /// CSV file with the columns `time_s` and `load_n` or `approach_m`.
+    FILE: Row<Text, Required> = "file", Text, Required;
+    /// Times, in place of a file; the first is 0 s, two equal ones are a jump.
+    TIMES: Row<Array<Number>, Required> = "times", list(quantity(Time)), Required;
+    /// Their values.
+    VALUES: Row<Array<Dependent>, Required> = "values", list(of_prescribed(Limits::NONE)), Required;
+}
 
 /// Reads the block; `None` where a problem was reported. `pull_off_n` is the attraction (N) of an indenter under such a control, `None`
 /// where a problem was reported; `area_m2` that of a period, where the surface repeats itself.

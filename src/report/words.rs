@@ -9,7 +9,6 @@ use crate::indenter::{Setting, Value};
 use crate::material::{Compressibility, Material, Relaxation};
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::plan::adhesion::AdhesionPlan;
-use crate::sweep::plan::resolved::drive_dimension;
 use crate::sweep::plan::{Block, Condition, SweepPlan, Varied};
 use crate::sweep::search::run::Outcome;
 
@@ -31,7 +30,7 @@ pub fn without_result(unit: FrequencyUnit, outcome: &Outcome) -> impl Iterator<I
 
 /// What is prescribed, with the range of what an axis varies: `load 10 N ± 0.1 N to 10 N`.
 pub fn drive_line(drive: &HarmonicDrive, plan: &SweepPlan) -> String {
-    let dimension = drive_dimension(drive.control());
+    let dimension = drive.control().dimension();
     let value = |value| plain(value, dimension, 4);
     let range = |is_varied: fn(&Varied) -> bool| {
         let axes = plan.axes.as_ref()?;

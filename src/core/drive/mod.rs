@@ -22,13 +22,16 @@
 mod harmonic;
 mod piece;
 mod schedule;
+mod segment;
 mod segments;
 
+use crate::quantity::Dimension;
 use crate::words;
 
 pub use harmonic::HarmonicDrive;
 pub use schedule::{Fineness, MAX_MOMENTS, Moment, Schedule, ScheduleError, Steps};
-pub use segments::{HistoryError, Joint, Segment, SegmentProblem, SegmentedDrive};
+pub use segment::{Segment, SegmentProblem};
+pub use segments::{HistoryError, Joint, SegmentedDrive};
 
 words! {
     /// What the drive prescribes.
@@ -43,6 +46,14 @@ words! {
 }
 
 impl Control {
+    /// What kind of quantity the drive's values are.
+    pub fn dimension(self) -> Dimension {
+        match self {
+            Self::Load => Dimension::Force,
+            Self::Approach => Dimension::Length,
+        }
+    }
+
     /// The SI unit of the drive's values.
     pub fn unit(self) -> &'static str {
         match self {

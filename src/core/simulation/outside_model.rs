@@ -96,17 +96,7 @@ fn shortest_s(drive: &SegmentedDrive) -> f64 {
     if jumps {
         return 0.0;
     }
-    let of_segment = |segment: &Segment| match segment {
-        Segment::Step { duration_s, .. }
-        | Segment::Ramp { duration_s, .. }
-        | Segment::Polynomial { duration_s, .. } => *duration_s,
-        Segment::Sine {
-            angular_frequency_rad_per_s,
-            ..
-        } => angular_frequency_rad_per_s.recip(),
-        Segment::Table { times_s, .. } => times_s.last().copied().unwrap_or(f64::INFINITY),
-    };
-    let times_s = drive.segments().iter().map(of_segment);
+    let times_s = drive.segments().iter().map(Segment::changes_within_s);
     times_s.fold(f64::INFINITY, f64::min)
 }
 

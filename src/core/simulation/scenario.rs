@@ -3,18 +3,18 @@
 use std::sync::Arc;
 
 use crate::block_with_defaults;
-use crate::drive::{Control, Segment, SegmentedDrive};
+use crate::drive::SegmentedDrive;
 use crate::engine::{CELLS, EngineKind, SolverPlan};
 use crate::indenter::Indenter;
 use crate::quantity::Dimension;
 use crate::quantity::block::Block as _;
 use crate::quantity::key::{Entries, Kind, quantity};
-use crate::quantity::setting::{Setting, Table, Value, document};
+use crate::quantity::setting::{Table, Value, document};
 use crate::simulation::body_material::BodyMaterial;
 use crate::sweep::plan::check::PlanError;
 use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::figures::FigurePlan;
-use crate::sweep::plan::resolved::{drive_dimension, indenter_material_text};
+use crate::sweep::plan::resolved::indenter_material_text;
 
 /// Everything a simulation needs to know. Two equal plans give equal results, bit for bit.
 #[derive(Debug, Clone)]
@@ -134,72 +134,8 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
 pub(crate) fn history_table(drive: &SegmentedDrive) -> Table {
     let control = drive.control();
     let segments = drive.segments().iter();
-    let segments = segments.map(|segment| segment_settings(segment, control));
+    let segments = segments.map(|segment| segment.settings(control));
     Table::new("drive")
         .with("control", control.name())
         .with("segments", Value::Tables(segments.collect()))
-}
-
-/// The keys of a segment.
-fn segment_settings(segment: &Segment, control: Control) -> Vec<Setting> {
-    let to = |value: f64| Value::Quantity(value, drive_dimension(control));
-    let time = |time_s: f64| Value::Quantity(time_s, Dimension::Time);
-    let (kind, settings) = match segment {
-        Segment::Step {
-            to: end,
-            duration_s,
-        } => (
-            "step",
-            vec![("to", to(*end)), ("duration", time(*duration_s))],
-        ),
-        Segment::Ramp {
-            to: end,
-            duration_s,
-        } => (
-            "ramp",
-            vec![("to", to(*end)), ("duration", time(*duration_s))],
-        ),
-        Segment::Polynomial {
-            coefficients,
-            duration_s,
-        } => (
-            "polynomial",
-            vec![
-                ("coefficients", Value::Numbers(coefficients.clone())),
-                ("duration", time(*duration_s)),
-            ],
-        ),
-        Segment::Sine {
-            mean,
-            amplitude,
-            angular_frequency_rad_per_s: omega,
-            phase_rad,
-            cycles,
-        } => (
-            "sine",
-            vec![
-                ("mean", to(*mean)),
-                ("amplitude", to(*amplitude)),
-                (
-                    "angular_frequency",
-                    Value::Quantity(*omega, Dimension::AngularFrequency),
-                ),
-                ("phase", Value::Quantity(*phase_rad, Dimension::Angle)),
-                ("cycles", (*cycles).into()),
-            ],
-        ),
-        Segment::Table { times_s, values } => (
-            "table",
-            vec![
-                ("times", Value::Numbers(times_s.clone())),
-                ("values", Value::Numbers(values.clone())),
-            ],
-        ),
-    };
-    let settings = settings
-        .into_iter()
-        .map(|(key, value)| Setting::new(key, value));
-    std::iter::once(Setting::new("kind", kind))
-        .chain(settings)
-        .collect()
 }

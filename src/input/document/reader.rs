@@ -412,8 +412,8 @@ pub(in crate::input) fn in_backticks(keys: &[&str]) -> String {
 pub(in crate::input) mod by_name {
     use super::{Located, TableReader, kind};
     use crate::input::document::kind::{Tables, Text, number, quantity};
+    use crate::input::document::row::table;
     use crate::input::document::row::{Presence, Required, Row, Rows};
-    use crate::input::keys::table;
     use crate::quantity::Dimension;
 
     pub(in crate::input) static NOTHING: Rows = table("", &[]);

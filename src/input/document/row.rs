@@ -176,6 +176,8 @@ pub(crate) enum Others {
     AtMostOne(&'static [&'static str]),
     /// Those of exactly one of these lists, of which the first key decides.
     OneList(&'static [List]),
+    /// The same of lists, each with one of the keys behind it, where there are any.
+    OneListAnd(&'static [(List, List)]),
     /// Those that belong to the word under a key.
     ByWord(
         &'static dyn AnyRow,
@@ -204,6 +206,27 @@ impl Rows {
                     keys: keys.to_vec(),
                 };
                 lists.iter().map(branch).collect()
+            }
+            Others::OneListAnd(lists) => {
+                let most = lists.iter().map(|(_, and)| and.len()).max().unwrap_or(0);
+                let with = |place: usize| {
+                    lists.iter().filter_map(move |(keys, and)| {
+                        let (first, more) = keys.split_first()?;
+                        let and = and.get(place).copied();
+                        // A list without another key is a way by itself.
+                        let is_way = and.is_some() || place == 0;
+                        is_way.then(|| Branch {
+                            decided_by: vec![(first.name(), None)],
+                            means: "",
+                            keys: [*first]
+                                .into_iter()
+                                .chain(and)
+                                .chain(more.iter().copied())
+                                .collect(),
+                        })
+                    })
+                };
+                (0..most.max(1)).flat_map(with).collect()
             }
             Others::ByWord(row, words) => {
                 let with = |(word, rows): &(&'static str, &'static Rows)| {
@@ -354,3 +377,59 @@ fn object(keys: &[&dyn AnyRow], decided_by: &[(&str, Option<&str>)]) -> Json {
     }
     schema
 }
+
+/// A table whose keys do not exclude one another.
+pub(crate) const fn table(means: &'static str, keys: List) -> Rows {
+    Rows {
+        means,
+        keys,
+        block: &[],
+        others: Others::None,
+    }
+}
+
+/// Rows as statics, their meaning being their documentation; with a name before the colon, also the list of them.
+macro_rules! rows {
+    ($list:ident: $( $(#[doc = $means:literal])+ $name:ident: $type:ty = $key:literal, $kind:expr, $presence:expr; )+) => {
+        $crate::input::document::row::rows! { _: $( $(#[doc = $means])+ $name: $type = $key, $kind, $presence; )+ }
+        pub(in crate::input) static $list: $crate::input::document::row::List = &[$(&$name),+];
+    };
+    (_: $( $(#[doc = $means:literal])+ $name:ident: $type:ty = $key:literal, $kind:expr, $presence:expr; )+) => {
+        $(
+            $(#[doc = $means])+
+            pub(crate) static $name: $type = $crate::input::document::row::Row {
+                name: $key,
+                kind: $kind,
+                presence: $presence,
+                means: concat!($($means),+),
+            };
+        )+
+    };
+}
+pub(in crate::input) use rows;
+
+/// A key whose word decides which others its table has: the enum of its words, its row, and the keys that each word brings.
+macro_rules! choice {
+    ($(#[doc = $means:literal])+ $row:ident = $key:literal, $name:ident, $others:ident:
+        $( $(#[doc = $about:literal])+ $variant:ident = $word:literal: $keys:expr $(, $ways:expr)?; )+) => {
+        contact_dma_core::words! {
+            $(#[doc = $means])+
+            pub(crate) enum $name { $( $(#[doc = $about])+ $variant = $word ),+ }
+        }
+        $crate::input::document::row::rows! { _:
+            $(#[doc = $means])+
+            $row: $crate::input::document::row::Row<$crate::input::document::kind::Choice<$name>, $crate::input::document::row::Required> = $key, $crate::input::document::kind::Choice($name::NAMES), $crate::input::document::row::Required;
+        }
+        const $others: $crate::input::document::row::Others = $crate::input::document::row::Others::ByWord(&$row, &[$(
+            ($word, &$crate::input::document::row::Rows {
+                means: concat!($($about),+),
+                keys: $keys,
+                block: &[],
+                others: $crate::input::document::row::choice!(@ways $($ways)?),
+            })
+        ),+]);
+    };
+    (@ways) => { $crate::input::document::row::Others::None };
+    (@ways $ways:expr) => { $crate::input::document::row::Others::OneList($ways) };
+}
+pub(in crate::input) use choice;

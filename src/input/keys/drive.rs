@@ -1,16 +1,13 @@
 //! Keys of `[drive]` and `[sweep]`: an oscillation and its axes, or a history of segments.
 
-use super::indenter::{INDENTER, LISTED_INDENTER};
 use super::material::MATERIAL;
 use super::settings::LAYER;
-use super::{choice, rows};
 use crate::drive::Control;
 use crate::input::axis::AxisOf;
 use crate::input::document::kind::Boolean;
-use crate::input::document::kind::{
-    Array, Choice, Dependent, Integer, Number, Tables, Text, list, number, quantity,
-};
-use crate::input::document::row::{Optional, Or, Others, Required, Row, Rows};
+use crate::input::document::kind::{Choice, Dependent, Integer, Number, quantity};
+use crate::input::document::row::{Optional, Or, Others, Required, Row, Rows, rows, table};
+use crate::input::indenter_block::{INDENTER, LISTED_INDENTER};
 use crate::input::points::{MOST_POINTS, Points, Spacing};
 use crate::quantity::Dimension::{
     self, Angle, AngularFrequency, Force, Frequency, Length, Stress, Time,
@@ -40,15 +37,14 @@ impl Prescribed {
     /// What kind of quantity the values are.
     pub(crate) fn dimension(self) -> Dimension {
         match self {
-            Self::Load => Force,
             Self::Pressure => Stress,
-            Self::Approach => Length,
+            Self::Load | Self::Approach => self.control().dimension(),
         }
     }
 }
 
 /// A load, a mean pressure where that is prescribed, or an approach.
-const fn of_prescribed(limits: Limits) -> Dependent {
+pub(crate) const fn of_prescribed(limits: Limits) -> Dependent {
     Dependent {
         dimensions: &[Force, Length, Stress],
         limits,
@@ -70,7 +66,7 @@ rows! { HARMONIC_KEYS:
     HOLD: Row<Number, Or<f64>> = "hold", quantity(Time).not_negative(), Or(0.0);
 }
 
-pub(super) static HARMONIC: Rows = super::table(
+pub(super) static HARMONIC: Rows = table(
     " mean + amplitude sin(omega t + phase), after a hold at the mean.",
     HARMONIC_KEYS,
 );
@@ -123,82 +119,4 @@ rows! { RANGE_KEYS:
     POINTS: Row<Integer, Required> = "points", Integer(1..=MOST_POINTS), Required;
     /// Logarithmic (constant ratio) or linear (constant difference).
     SPACING: Row<Choice<Spacing>, Or<Spacing>> = "spacing", Choice(Spacing::NAMES), Or(Spacing::Logarithmic);
-}
-
-/// More segments than this belong into a table.
-const MOST_SEGMENTS: usize = 10_000;
-
-rows! { _:
-    /// The segments, one after another; jumps between them are resolved exactly.
-    SEGMENTS: Row<Tables, Required> =
-        "segments",
-        Tables {
-            rows: &SEGMENT,
-            most: MOST_SEGMENTS,
-            instead: ", or a table: { kind = \"table\", file = \"drive.csv\" }",
-        },
-        Required;
-}
-
-pub(super) static HISTORY: Rows = super::table(
-    " A history of load or approach, starting at first touch.",
-    &[&PRESCRIBES, &SEGMENTS],
-);
-
-choice! {
-    /// The kind of the segment; what it needs is listed below.
-    KIND = "kind", SegmentKind, BY_KIND:
-    /// A jump to a constant value.
-    Step = "step": &[&TARGET, &DURATION];
-    /// A straight line from the end of the previous segment.
-    Ramp = "ramp": &[&TARGET, &DURATION];
-    /// A polynomial of time.
-    Polynomial = "polynomial": &[&COEFFICIENTS, &DURATION];
-    /// mean + amplitude sin(omega t + phase): exactly one of `angular_frequency` and `frequency`.
-    Sine = "sine": &[&SINE_MEAN, &SINE_AMPLITUDE, &PHASE, &CYCLES],
-        &[&[&SINE_ANGULAR_FREQUENCY], &[&SINE_FREQUENCY]];
-    /// Straight lines between points: a `file`, or `times` and `values`.
-    Table = "table": &[], &[&[&FILE], &[&TIMES, &VALUES]];
-}
-
-static SEGMENT: Rows = Rows {
-    means: " A part of the history.",
-    keys: &[&KIND],
-    block: &[],
-    others: BY_KIND,
-};
-
-rows! { _:
-    /// The value held, or reached at the end.
-    TARGET: Row<Dependent, Required> = "to", of_prescribed(Limits::NONE), Required;
-    /// Duration of the segment.
-    DURATION: Row<Number, Required> = "duration", quantity(Time).above_zero(), Required;
-    /// Coefficients of 1, t, t^2, ... in SI units, with t from the start of the segment.
-    COEFFICIENTS: Row<Array<Number>, Required> = "coefficients", list(number("2.0")), Required;
-}
-
-rows! { _:
-    /// Mean.
-    SINE_MEAN: Row<Dependent, Required> = "mean", of_prescribed(Limits::NONE), Required;
-    /// Amplitude.
-    SINE_AMPLITUDE: Row<Dependent, Required> = "amplitude", of_prescribed(Limits::ABOVE_ZERO), Required;
-    /// Number of cycles, not necessarily whole.
-    CYCLES: Row<Number, Required> = "cycles", number("4.0").above_zero(), Required;
-}
-
-rows! { _:
-    /// Angular frequency; Hz is accepted too.
-    SINE_ANGULAR_FREQUENCY: Row<Number, Required> =
-        "angular_frequency", quantity(AngularFrequency).above_zero(), Required;
-    /// Frequency; rad/s is accepted too.
-    SINE_FREQUENCY: Row<Number, Required> = "frequency", quantity(Frequency).above_zero(), Required;
-}
-
-rows! { _:
-    /// CSV file with the columns `time_s` and `load_n` or `approach_m`.
-    FILE: Row<Text, Required> = "file", Text, Required;
-    /// Times, in place of a file; the first is 0 s, two equal ones are a jump.
-    TIMES: Row<Array<Number>, Required> = "times", list(quantity(Time)), Required;
-    /// Their values.
-    VALUES: Row<Array<Dependent>, Required> = "values", list(of_prescribed(Limits::NONE)), Required;
 }

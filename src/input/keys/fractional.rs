@@ -3,9 +3,8 @@
 use std::ops::Bound;
 
 use super::material::EQUILIBRIUM;
-use super::rows;
 use crate::input::document::kind::{Array, Choice, Number, number, pair, quantity};
-use crate::input::document::row::{Or, Others, Required, Row, Rows};
+use crate::input::document::row::{Or, Others, Required, Row, Rows, rows, table};
 use crate::material::{ModulusKind, fractional};
 use crate::quantity::Dimension::{AngularFrequency, Stress, Time};
 use crate::quantity::key::Limits;
@@ -73,9 +72,9 @@ pub(super) static TABLE: Rows = Rows {
     ),
 };
 
-static FRACTIONAL_SPRINGPOT: Rows = super::table(" A springpot alone.", &[]);
-static FRACTIONAL_ZENER: Rows = super::table(
+static FRACTIONAL_SPRINGPOT: Rows = table(" A springpot alone.", &[]);
+static FRACTIONAL_ZENER: Rows = table(
     " A spring in parallel with a spring and a springpot in series.",
     &[&EQUILIBRIUM],
 );
-static FRACTIONAL_MAXWELL: Rows = super::table(" Two springpots in series.", &[&SECOND_EXPONENT]);
+static FRACTIONAL_MAXWELL: Rows = table(" Two springpots in series.", &[&SECOND_EXPONENT]);

@@ -1,12 +1,12 @@
 //! Keys of an identification: what was measured, and what the result is to be.
 
 use super::material::{BULK_MODULUS, POISSON_RATIO};
-use super::rows;
 use super::{ADHESION, INDENTER, LAYER, SOLVER, TITLE, drive, settings};
 use crate::identify::{ApproachZero, MOST_BRANCHES};
 use crate::input::document::kind::{Choice, Table, Text};
-use crate::input::document::row::{Optional, Others, Required, Row, Rows};
+use crate::input::document::row::{Optional, Others, Required, Row, Rows, rows, table};
 use crate::input::material_dynamic::Branches;
+use crate::input::segments_block::SEGMENTS;
 
 rows! { IDENTIFY_KEYS:
     /// A table with columns of `sweep.csv`, with error columns if known, or a folder that holds `sweep.csv`. For a history: `time_s` and
@@ -20,7 +20,7 @@ rows! { IDENTIFY_KEYS:
         "approach_zero", Choice(ApproachZero::NAMES), Optional;
 }
 
-static IDENTIFY_TABLE: Rows = super::table(" What was measured.", IDENTIFY_KEYS);
+static IDENTIFY_TABLE: Rows = table(" What was measured.", IDENTIFY_KEYS);
 
 static MATERIAL_TABLE: Rows = Rows {
     means: " What is known of the material: its Poisson ratio, or a bulk modulus that is constant in time.",
@@ -47,11 +47,11 @@ static DRIVEN: Rows = Rows {
     block: &[],
     others: Others::OneList(&[
         &[&drive::MEAN, &drive::AMPLITUDE, &drive::PHASE, &drive::HOLD],
-        &[&drive::SEGMENTS],
+        &[&SEGMENTS],
     ]),
 };
 
-pub(super) static IDENTIFY_FILE: Rows = super::table(
+pub(super) static IDENTIFY_FILE: Rows = table(
     " A material from measured cycles or a measured history, for `contact-dma identify`.",
     &[
         &TITLE,

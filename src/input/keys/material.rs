@@ -1,12 +1,12 @@
 //! Keys of `[material]`: a series, a model of few elements, measured data or a material of the library.
 
-use super::{fractional, rows};
+use super::fractional;
 use crate::input::bulk_modulus::BulkModulus;
 use crate::input::document::kind::{
     Array, Boolean, Choice, Dependent, Integer, Number, Table, Tables, Text, list, number, pair,
     quantity,
 };
-use crate::input::document::row::{Optional, Or, Others, Required, Row, Rows};
+use crate::input::document::row::{List, Optional, Or, Others, Required, Row, Rows, rows, table};
 use crate::input::dynamic::{DynamicFormat, FORMATS};
 use crate::input::material_dynamic::{Branches, Shift};
 use crate::material::{MaterialFunction, ModulusKind};
@@ -132,7 +132,7 @@ rows! { _:
         "isotherm", Tables { rows: &INDENTER_ISOTHERM, most: MOST_ISOTHERMS, instead: "" }, Required;
 }
 
-static INDENTER_ISOTHERM: Rows = super::table(
+static INDENTER_ISOTHERM: Rows = table(
     " The series at one temperature.",
     &[
         &ISOTHERM_TEMPERATURE,
@@ -146,28 +146,33 @@ static INDENTER_ISOTHERM: Rows = super::table(
     ],
 );
 
-static INDENTER_RELAXATION_TABLE: Rows = super::table(
+static INDENTER_RELAXATION_TABLE: Rows = table(
     " E(t) = equilibrium + sum of modulus exp(-t / time).",
     &[&MODULUS, &EQUILIBRIUM, &RELAXATION_BRANCHES],
 );
 
-static ELASTIC_TABLE: Rows = super::table(" An elastic body.", ELASTIC_KEYS);
+static ELASTIC_TABLE: Rows = table(" An elastic body.", ELASTIC_KEYS);
+
+/// How much a form of material gives in to pressure: it says so itself, or a key beside it does.
+const SAYS_ITSELF: List = &[];
+const WITH_POISSON_RATIO: List = &[&POISSON_RATIO];
+const EITHER: List = &[&POISSON_RATIO, &BULK_MODULUS];
 
 /// What an indenter may be made of.
-pub(super) static INDENTER_MATERIAL: Rows = Rows {
+pub(in crate::input) static INDENTER_MATERIAL: Rows = Rows {
     means: " What the indenter is made of, where it is not rigid: exactly one of `library`, `elastic`, `relaxation`, `creep`, `zener` and `isotherm`.",
     keys: MATERIAL_KEYS,
     block: &[],
-    others: Others::OneList(&[
-        &[&LIBRARY, &LIBRARY_POISSON_RATIO, &TEMPERATURE],
-        &[&ELASTIC_BODY],
-        &[&INDENTER_RELAXATION, &POISSON_RATIO, &MEASURED],
-        &[&CREEP, &POISSON_RATIO, &MEASURED],
-        &[&ZENER, &POISSON_RATIO, &MEASURED],
-        &[&INDENTER_ISOTHERMS, &POISSON_RATIO, &TEMPERATURE],
-        &[&INDENTER_RELAXATION, &BULK_MODULUS, &MEASURED],
-        &[&CREEP, &BULK_MODULUS, &MEASURED],
-        &[&ZENER, &BULK_MODULUS, &MEASURED],
+    others: Others::OneListAnd(&[
+        (
+            &[&LIBRARY, &LIBRARY_POISSON_RATIO, &TEMPERATURE],
+            SAYS_ITSELF,
+        ),
+        (&[&ELASTIC_BODY], SAYS_ITSELF),
+        (&[&INDENTER_RELAXATION, &MEASURED], EITHER),
+        (&[&CREEP, &MEASURED], EITHER),
+        (&[&ZENER, &MEASURED], EITHER),
+        (&[&INDENTER_ISOTHERMS, &TEMPERATURE], WITH_POISSON_RATIO),
     ]),
 };
 
@@ -176,34 +181,21 @@ pub(super) static MATERIAL: Rows = Rows {
             `fractional`, `isotherm`, `dynamic` and `table`.",
     keys: MATERIAL_KEYS,
     block: &[],
-    others: Others::OneList(&[
-        &[&LIBRARY, &LIBRARY_POISSON_RATIO, &TEMPERATURE],
-        &[&ELASTIC_BODY],
-        &[
-            &RELAXATION,
-            &POISSON_RATIO,
-            &MEASURED,
-            &RELAXATION_ALTERNATIVE,
-        ],
-        &[&CREEP, &POISSON_RATIO, &MEASURED, &CREEP_ALTERNATIVE],
-        &[&MAXWELL, &POISSON_RATIO, &MEASURED],
-        &[&ZENER, &POISSON_RATIO, &MEASURED],
-        &[&KELVIN_VOIGT, &POISSON_RATIO, &MEASURED],
-        &[&FRACTIONAL, &POISSON_RATIO],
-        &[&ISOTHERMS, &POISSON_RATIO, &TEMPERATURE],
-        &[&DYNAMIC, &POISSON_RATIO, &TEMPERATURE],
-        &[&MEASURED_TABLE, &POISSON_RATIO],
-        &[
-            &RELAXATION,
-            &BULK_MODULUS,
-            &MEASURED,
-            &RELAXATION_ALTERNATIVE,
-        ],
-        &[&CREEP, &BULK_MODULUS, &MEASURED, &CREEP_ALTERNATIVE],
-        &[&MAXWELL, &BULK_MODULUS, &MEASURED],
-        &[&ZENER, &BULK_MODULUS, &MEASURED],
-        &[&FRACTIONAL, &BULK_MODULUS],
-        &[&MEASURED_TABLE, &BULK_MODULUS],
+    others: Others::OneListAnd(&[
+        (
+            &[&LIBRARY, &LIBRARY_POISSON_RATIO, &TEMPERATURE],
+            SAYS_ITSELF,
+        ),
+        (&[&ELASTIC_BODY], SAYS_ITSELF),
+        (&[&RELAXATION, &MEASURED, &RELAXATION_ALTERNATIVE], EITHER),
+        (&[&CREEP, &MEASURED, &CREEP_ALTERNATIVE], EITHER),
+        (&[&MAXWELL, &MEASURED], EITHER),
+        (&[&ZENER, &MEASURED], EITHER),
+        (&[&KELVIN_VOIGT, &MEASURED], WITH_POISSON_RATIO),
+        (&[&FRACTIONAL], EITHER),
+        (&[&ISOTHERMS, &TEMPERATURE], WITH_POISSON_RATIO),
+        (&[&DYNAMIC, &TEMPERATURE], WITH_POISSON_RATIO),
+        (&[&MEASURED_TABLE], EITHER),
     ]),
 };
 
@@ -246,7 +238,7 @@ rows! { REPLICA_KEYS:
         "times", list(quantity(Time).above_zero().or_else(NO_BRANCH)), Required;
 }
 
-static REPLICA: Rows = super::table(" A series, its branches as two lists.", REPLICA_KEYS);
+static REPLICA: Rows = table(" A series, its branches as two lists.", REPLICA_KEYS);
 
 rows! { _:
     /// Temperature at which the series holds.
@@ -270,7 +262,7 @@ rows! { _:
         "measured_temperatures", pair(quantity(Temperature).above_zero().or_else(COLDEST_FIRST), COLDEST_FIRST), Optional;
 }
 
-static ISOTHERM: Rows = super::table(
+static ISOTHERM: Rows = table(
     " The series at one temperature.",
     &[
         &ISOTHERM_TEMPERATURE,
@@ -285,11 +277,11 @@ static ISOTHERM: Rows = super::table(
     ],
 );
 
-static RELAXATION_TABLE: Rows = super::table(
+static RELAXATION_TABLE: Rows = table(
     " E(t) = equilibrium + sum of modulus exp(-t / time).",
     RELAXATION_KEYS,
 );
-static RELAXATION_SERIES: Rows = super::table(
+static RELAXATION_SERIES: Rows = table(
     " Another series that fits the same data.",
     &[&EQUILIBRIUM, &RELAXATION_BRANCHES],
 );
@@ -306,8 +298,8 @@ rows! { _:
         "time", quantity(Time).above_zero().or_else(NO_BRANCH), Required;
 }
 
-static RELAXATION_BRANCH: Rows = super::table(" A branch.", &[&BRANCH_MODULUS, &BRANCH_TIME]);
-static CREEP_BRANCH: Rows = super::table(" A branch.", &[&BRANCH_COMPLIANCE, &BRANCH_TIME]);
+static RELAXATION_BRANCH: Rows = table(" A branch.", &[&BRANCH_MODULUS, &BRANCH_TIME]);
+static CREEP_BRANCH: Rows = table(" A branch.", &[&BRANCH_COMPLIANCE, &BRANCH_TIME]);
 
 rows! { CREEP_KEYS:
     /// Whether the compliances are uniaxial or in shear.
@@ -322,11 +314,11 @@ rows! { CREEP_KEYS:
     CREEP_BRANCHES: Row<Tables, Required> = "branches", branches(&CREEP_BRANCH), Required;
 }
 
-static CREEP_TABLE: Rows = super::table(
+static CREEP_TABLE: Rows = table(
     " D(t) = instantaneous + sum of compliance (1 - exp(-t / time)) + t / viscosity.",
     CREEP_KEYS,
 );
-static CREEP_SERIES: Rows = super::table(
+static CREEP_SERIES: Rows = table(
     " Another series that fits the same data.",
     &[&INSTANTANEOUS, &VISCOSITY, &CREEP_BRANCHES],
 );
@@ -345,15 +337,15 @@ rows! { _:
         "time", quantity(Time).above_zero().or_else(ELASTIC), Required;
 }
 
-static MAXWELL_TABLE: Rows = super::table(
+static MAXWELL_TABLE: Rows = table(
     " Spring and dashpot in series.",
     &[&MAXWELL_MODULUS, &ELEMENT_TIME],
 );
-static ZENER_TABLE: Rows = super::table(
+static ZENER_TABLE: Rows = table(
     " Spring in series with a Kelvin unit.",
     &[&SPRING, &KELVIN_SPRING, &ELEMENT_TIME],
 );
-static KELVIN_VOIGT_TABLE: Rows = super::table(
+static KELVIN_VOIGT_TABLE: Rows = table(
     " Spring and dashpot in parallel.",
     &[&SPRING, &ELEMENT_TIME],
 );

@@ -4,70 +4,13 @@
 pub(crate) mod drive;
 pub(super) mod fractional;
 pub(crate) mod identify;
-pub(super) mod indenter;
 pub(crate) mod material;
 pub(super) mod settings;
 pub(super) mod setup;
 
 use super::document::kind::{Table, Text};
-use super::document::row::{List, Optional, Others, Required, Row, Rows};
+use super::document::row::{Optional, Required, Row, Rows, rows, table};
 use contact_dma_core::words;
-
-/// Rows as statics, their meaning being their documentation; with a name before the colon, also the list of them.
-macro_rules! rows {
-    ($list:ident: $( $(#[doc = $means:literal])+ $name:ident: $type:ty = $key:literal, $kind:expr, $presence:expr; )+) => {
-        $crate::input::keys::rows! { _: $( $(#[doc = $means])+ $name: $type = $key, $kind, $presence; )+ }
-        pub(in crate::input) static $list: $crate::input::document::row::List = &[$(&$name),+];
-    };
-    (_: $( $(#[doc = $means:literal])+ $name:ident: $type:ty = $key:literal, $kind:expr, $presence:expr; )+) => {
-        $(
-            $(#[doc = $means])+
-            pub(crate) static $name: $type = Row {
-                name: $key,
-                kind: $kind,
-                presence: $presence,
-                means: concat!($($means),+),
-            };
-        )+
-    };
-}
-pub(in crate::input) use rows;
-
-/// A key whose word decides which others its table has: the enum of its words, its row, and the keys that each word brings.
-macro_rules! choice {
-    ($(#[doc = $means:literal])+ $row:ident = $key:literal, $name:ident, $others:ident:
-        $( $(#[doc = $about:literal])+ $variant:ident = $word:literal: $keys:expr $(, $ways:expr)?; )+) => {
-        contact_dma_core::words! {
-            $(#[doc = $means])+
-            pub(crate) enum $name { $( $(#[doc = $about])+ $variant = $word ),+ }
-        }
-        $crate::input::keys::rows! { _:
-            $(#[doc = $means])+
-            $row: Row<Choice<$name>, Required> = $key, Choice($name::NAMES), Required;
-        }
-        const $others: Others = Others::ByWord(&$row, &[$(
-            ($word, &Rows {
-                means: concat!($($about),+),
-                keys: $keys,
-                block: &[],
-                others: $crate::input::keys::choice!(@ways $($ways)?),
-            })
-        ),+]);
-    };
-    (@ways) => { Others::None };
-    (@ways $ways:expr) => { Others::OneList($ways) };
-}
-pub(in crate::input) use choice;
-
-/// A table whose keys do not exclude one another.
-pub(super) const fn table(means: &'static str, keys: List) -> Rows {
-    Rows {
-        means,
-        keys,
-        block: &[],
-        others: Others::None,
-    }
-}
 
 words! {
     /// The kinds of input files.
@@ -103,7 +46,7 @@ rows! { SWEEP_KEYS:
     /// The body is a layer on a base instead of a half-space.
     LAYER: Row<Table, Optional> = "layer", Table(&settings::LAYER), Optional;
     /// The indenter.
-    INDENTER: Row<Table, Required> = "indenter", Table(&indenter::INDENTER), Required;
+    INDENTER: Row<Table, Required> = "indenter", Table(&super::indenter_block::INDENTER), Required;
     /// The load or the approach: an oscillation about a mean.
     DRIVE: Row<Table, Required> = "drive", Table(&drive::HARMONIC), Required;
     /// Adhesion of a sphere under a prescribed load.
@@ -128,7 +71,7 @@ rows! { _:
 
 rows! { _:
     /// The load or the approach: a history of segments.
-    HISTORY: Row<Table, Required> = "drive", Table(&drive::HISTORY), Required;
+    HISTORY: Row<Table, Required> = "drive", Table(&super::segments_block::HISTORY), Required;
     /// Time steps.
     TIME: Row<Table, Optional> = "time", Table(&settings::TIME), Optional;
     /// What is written in addition to the history.

@@ -2,14 +2,13 @@
 
 use std::ops::RangeInclusive;
 
-use super::rows;
 use crate::engine::SolverPlan;
 use crate::figures::paper::COLUMNS;
 use crate::input::document::block::rows_of;
 use crate::input::document::kind::{
     Array, Boolean, Choice, Integer, Number, list, number, quantity,
 };
-use crate::input::document::row::{Optional, Others, Row, Rows};
+use crate::input::document::row::{Optional, Others, Row, Rows, rows, table};
 use crate::quantity::Dimension::{AngularFrequency, Length, Time};
 use crate::quantity::FrequencyUnit;
 use crate::quantity::key::Limits;
@@ -33,7 +32,7 @@ rows! { TIME_KEYS:
         Optional;
 }
 
-pub(super) static TIME: Rows = super::table(" Time steps of a history.", TIME_KEYS);
+pub(super) static TIME: Rows = table(" Time steps of a history.", TIME_KEYS);
 
 /// Sides, text and resolutions beyond these are a slip of the pen rather than a wish.
 const SIDE: Number = quantity(Length)

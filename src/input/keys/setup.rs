@@ -1,11 +1,10 @@
 //! Keys of a setup file: the instrument and the contact of measured loops.
 
 use super::material::POISSON_RATIO;
-use super::rows;
 use crate::input::document::kind::{
     Array, Boolean, Choice, Number, Table, Text, list, number, quantity,
 };
-use crate::input::document::row::{Optional, Or, Row, Rows};
+use crate::input::document::row::{Optional, Or, Row, Rows, rows, table};
 use crate::quantity::Dimension::{Damping, FrameCompliance, Length, Mass, Speed, Stiffness, Time};
 use crate::quantity::key::Limits;
 use contact_dma_core::words;
@@ -27,7 +26,7 @@ rows! { INSTRUMENT_KEYS:
     APPROACH_AT_TOUCH: Row<Number, Or<f64>> = "approach_at_touch", quantity(Length), Or(0.0);
 }
 
-static INSTRUMENT_TABLE: Rows = super::table(
+static INSTRUMENT_TABLE: Rows = table(
     " Contributions of the instrument to load and approach, removed from every harmonic.",
     INSTRUMENT_KEYS,
 );
@@ -65,7 +64,7 @@ rows! { _:
     BIAS: Row<Boolean, Or<bool>> = "bias", Boolean, Or(true);
 }
 
-static CONTACT_TABLE: Rows = super::table(
+static CONTACT_TABLE: Rows = table(
     " How moduli are read from the loop, (1 − ν²) W₁ exp(i phase lag)/(2 a₀ δ₁).",
     &[
         &POISSON_RATIO,
@@ -84,10 +83,10 @@ rows! { SETUP_KEYS:
     /// The contact, if moduli are wanted.
     CONTACT: Row<Table, Optional> = "contact", Table(&CONTACT_TABLE), Optional;
     /// The rigid indenter, if its geometry is used.
-    SETUP_INDENTER: Row<Table, Optional> = "indenter", Table(&super::indenter::INDENTER), Optional;
+    SETUP_INDENTER: Row<Table, Optional> = "indenter", Table(&crate::input::indenter_block::INDENTER), Optional;
 }
 
-pub(super) static SETUP_FILE: Rows = super::table(
+pub(super) static SETUP_FILE: Rows = table(
     " The instrument and the contact of measured loops, for `contact-dma analyse --setup`.",
     SETUP_KEYS,
 );

@@ -21,7 +21,6 @@ use crate::simulation::cycles::HistoryCycle;
 use crate::simulation::outside_model;
 use crate::simulation::scenario::ScenarioPlan;
 use crate::simulation::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
-use crate::sweep::plan::resolved::drive_dimension;
 
 /// Moments of the history that the page carries.
 const MOMENTS: usize = 1500;
@@ -312,7 +311,7 @@ fn question(plan: &ScenarioPlan) -> Markup {
     drive.add("segments", plan.drive.segments().len());
     let duration = plain(plan.drive.duration_s(), Dimension::Time, 6);
     drive.add("duration", duration);
-    let dimension = drive_dimension(plan.drive.control());
+    let dimension = plan.drive.control().dimension();
     drive.add("largest value", plain(plan.drive.maximum(), dimension, 6));
     if let Some(attraction) = words::adhesion_line(contact.adhesion) {
         drive.add("attraction", attraction);

@@ -8,7 +8,6 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use super::{Condition, SweepPlan};
 use crate::drive::{Control, DriveError, HarmonicDrive};
 use crate::quantity::Dimension;
-use crate::sweep::plan::resolved::drive_dimension;
 use crate::words;
 
 /// Axes besides the frequency, at most.
@@ -205,7 +204,7 @@ impl Varied {
     }
 
     fn of_drive(key: &'static str, control: Control) -> Self {
-        Self::number(Block::Drive, key, Some(drive_dimension(control)))
+        Self::number(Block::Drive, key, Some(control.dimension()))
     }
 
     /// A number of a block.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use sha2::{Digest, Sha256};
 
-use crate::drive::{Control, HarmonicDrive};
+use crate::drive::HarmonicDrive;
 use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::quantity::Dimension;
@@ -86,7 +86,7 @@ fn numbers(axes: &Axes) -> Vec<Setting> {
 
 /// The `[drive]` block of an oscillation.
 pub(crate) fn drive_table(drive: &HarmonicDrive) -> Table {
-    let dimension = drive_dimension(drive.control());
+    let dimension = drive.control().dimension();
     Table::new("drive")
         .with("control", drive.control().name())
         .with("mean", Value::Quantity(drive.mean(), dimension))
@@ -150,14 +150,6 @@ pub(crate) fn shape(indenter: &dyn Indenter) -> Vec<Setting> {
     let mut settings = vec![Setting::new("shape", indenter.shape())];
     settings.extend(indenter.parameters());
     settings
-}
-
-/// What kind of quantity a drive's values are.
-pub fn drive_dimension(control: Control) -> Dimension {
-    match control {
-        Control::Load => Dimension::Force,
-        Control::Approach => Dimension::Length,
-    }
 }
 
 /// SHA-256 of the values of a resolved file that make it the one that it is, in hexadecimal; of what is no TOML that of its text.
