@@ -142,14 +142,14 @@ fn of_limits(limits: &Limits) -> Json {
     schema
 }
 
-/// What a JSON Schema calls the texts of a dimension.
+/// What a JSON Schema calls the texts of a dimension; no path of keys begins so.
 fn text_name(dimension: Dimension, allow_negative: bool) -> String {
     let words = dimension.to_string();
     let name = words.split_once(' ').map_or("", |(_, name)| name);
     let name = name.replace(' ', "-");
     match allow_negative {
-        true => name,
-        false => format!("{name}-not-negative"),
+        true => format!("text-{name}"),
+        false => format!("text-{name}-not-negative"),
     }
 }
 
