@@ -106,7 +106,7 @@ Exit codes:
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
-    /// Compute the energy loss per cycle over the load frequencies of a sweep file
+    /// Compute energy loss, phase, moduli, radius and pressure of the stabilised cycle over frequency and up to four other axes
     Sweep(super::sweep::SweepFlags),
     /// Print the cases of a sweep file and their approximate cost, without computing them
     Plan(super::plan::PlanFlags),
@@ -116,11 +116,11 @@ pub(super) enum Command {
     Report(super::stored::ReportFlags),
     /// Compare two results of a sweep and report where they differ
     Compare(super::compare::CompareFlags),
-    /// Read loss, phase and moduli from measured loops, with their uncertainties
+    /// Read frequency, drift, loss, phase, harmonics and moduli from measured loops, with 95 % intervals
     Analyse(super::analyse::AnalyseFlags),
-    /// Follow one drive history: load or approach against time, from a scenario file
+    /// Follow one drive history: load or approach against time, from a scenario file, with profiles and fields
     Simulate(super::simulate::SimulateFlags),
-    /// Find the material from measured cycles: moduli and times with confidence bands
+    /// Find the material from measured cycles, creep or relaxation: moduli and times with confidence bands
     Identify(super::identify::IdentifyFlags),
     /// Recompute the figures of the base paper and compare every number with its exact value
     Reproduce(super::reproduce::ReproduceFlags),
@@ -129,6 +129,9 @@ pub(super) enum Command {
     Material(MaterialCommand),
     /// Print the JSON Schema of sweep, scenario or setup files, with which editors complete and check them
     Schema(super::schema::SchemaFlags),
+    /// Write anew what the repository repeats of the tables of keys and columns and of the commands
+    #[command(hide = true)]
+    Renew(super::renew::RenewFlags),
     /// Print a completion script for a shell
     #[command(after_help = "\
 Example:

@@ -17,6 +17,7 @@ mod meant_for;
 mod memory;
 mod plan;
 mod progress;
+mod renew;
 mod reproduce;
 mod schema;
 mod simulate;
@@ -143,6 +144,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Identify(flags) => identify::run(&flags, format),
         Command::Reproduce(flags) => reproduce::run(&flags, format),
         Command::Schema(flags) => schema::run(&flags),
+        Command::Renew(flags) => renew::run(&flags),
         Command::Material(command) => material::run(&command, format, data_format),
         Command::Completions { shell } => {
             let mut text = Vec::new();

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::document::row::{AnyRow, Branch, Rows};
-use super::keys::FileKind;
+use super::keys::{self, FileKind};
 
 /// The reference, as Markdown.
 pub fn markdown() -> String {
@@ -19,6 +19,23 @@ pub fn markdown() -> String {
         section(kind.rows(), &heading, "", &mut known, &mut text);
     }
     text
+}
+
+/// The ways to fill the table at a dotted path, such as `drive.segments`: the word or the key that decides for each, and what it means.
+pub fn ways(path: &str) -> Vec<(&'static str, &'static str)> {
+    let mut ways: Vec<(&str, &str)> = Vec::new();
+    let mut tables = keys::tables_at(path).into_iter().map(Rows::branches);
+    for branch in tables.find(|ways| !ways.is_empty()).unwrap_or_default() {
+        let way = match branch.decided_by.first() {
+            Some((_, Some(word))) => (*word, branch.means.trim()),
+            Some((key, None)) => (*key, branch.keys.first().map_or("", |row| row.means())),
+            None => continue,
+        };
+        if !ways.iter().any(|(word, _)| *word == way.0) {
+            ways.push(way);
+        }
+    }
+    ways
 }
 
 /// A table and those below it; what was written before is not written again.

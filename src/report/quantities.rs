@@ -512,31 +512,4 @@ mod tests {
         // The part of the cycle in contact knows its error without a coarser resolution.
         assert_eq!(barred.count(), Quantity::ALL.len() + 1);
     }
-
-    /// `RENEW_GUIDE=1 cargo test --lib quantities` writes it anew.
-    #[test]
-    fn the_guide_lists_every_column() {
-        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/guide/results.md");
-        let mut guide = std::fs::read_to_string(path).unwrap();
-        let written = guide.clone();
-        for (name, rows) in [
-            ("sweep.csv", reference(SWEEP)),
-            ("history.csv", reference(HISTORY)),
-            ("cycles.csv", reference(CYCLES)),
-        ] {
-            let begin =
-                format!("<!-- columns of {name}, written by src/report/quantities.rs -->\n");
-            let from = guide.find(&begin).expect("the mark is there") + begin.len();
-            let to = from + guide[from..].find("<!-- end of columns -->").unwrap();
-            guide.replace_range(from..to, &format!("\n{rows}\n"));
-        }
-        if std::env::var_os("RENEW_GUIDE").is_some() {
-            std::fs::write(path, &guide).unwrap();
-            return;
-        }
-        assert!(
-            guide == written,
-            "stale: RENEW_GUIDE=1 cargo test --lib quantities"
-        );
-    }
 }

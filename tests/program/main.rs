@@ -41,6 +41,7 @@ mod page;
 mod paths;
 mod periodic;
 mod refined_sweep;
+mod renew;
 mod reproduce;
 
 mod simulate;
