@@ -13,35 +13,25 @@
 //! Every problem is shown at its place, all of a file at once.
 
 pub(crate) mod grid;
-mod header;
-mod rows;
+mod numbers;
+pub(crate) mod section;
 mod text;
+pub(crate) mod units;
 
 use std::path::Path;
 use std::sync::Arc;
 
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source};
 use super::document::{Located, cannot_read, read_limited};
-use crate::quantity::{self, Dimension, QuantityError};
-use header::{Found, Header};
-pub(crate) use rows::Table;
-use rows::{Holes, Rows, line_at, plain_number};
-use text::{DELIMITERS, Lines};
+use crate::quantity::Dimension;
+use grid::{Grid, Line};
+use section::{Asked, Section};
+pub(crate) use section::{Holes, Table};
+use text::DELIMITERS;
+use units::{Scale, split_unit, unit_of_suffix};
 
 /// Largest file read, bytes: a map of 4096 x 4096 points with 30 characters each.
 pub const MAX_BYTES: usize = 512_000_000;
-
-/// Units as they are written in lower case, behind the name of a column.
-const SUFFIXES: [(&str, &str); 8] = [
-    ("pa", "Pa"),
-    ("kpa", "kPa"),
-    ("mpa", "MPa"),
-    ("gpa", "GPa"),
-    ("n", "N"),
-    ("kn", "kN"),
-    ("hz", "Hz"),
-    ("j", "J"),
-];
 
 /// A column that is looked for.
 #[derive(Debug, Clone, Copy)]
@@ -91,9 +81,59 @@ impl Column {
     /// Whether a name of one letter stands for this column: with a unit, by its dimension, and `t` without one is no `T`.
     fn is_symbol(&self, name: &str, unit: Option<&str>) -> bool {
         match unit {
-            Some(unit) => factor(unit, self.dimension).is_ok(),
+            Some(unit) => units::scale(unit, self.dimension).is_ok(),
             None => self.dimension != Dimension::Time || name == "t",
         }
+    }
+
+    fn is_named(&self, cell: &str) -> bool {
+        self.unit_in(cell).is_some()
+    }
+
+    /// Where the column stands in a table, and its unit.
+    fn asked(&self, section: &Section<'_>) -> Result<Asked, Diagnostic> {
+        let cells = section.header.texts().enumerate();
+        let mut found = cells.filter_map(|(place, cell)| Some((place, self.unit_in(cell)?)));
+        let (place, unit) = match (found.next(), found.next()) {
+            (Some(found), None) => found,
+            (None, _) => return Err(self.missing(section)),
+            (Some((first, _)), Some((second, _))) => {
+                return Err(section.twice([first, second], self.what));
+            }
+        };
+        let name = section.header.text(place);
+        let scale = section.scale((place, self.what), unit.as_deref(), |unit| match unit {
+            Some(unit) => units::scale(unit, self.dimension),
+            None if self.unit_may_be_absent => Ok(Scale::ONE),
+            None => Err(format!("write `{name} [{}]`", self.dimension.si_unit())),
+        })?;
+        Ok(Asked {
+            place,
+            scale,
+            what: self.what,
+        })
+    }
+
+    fn missing(&self, section: &Section<'_>) -> Diagnostic {
+        let (name, header) = (self.name_in_si(), &section.header);
+        let problem = Diagnostic::at(&section.grid.place(0), format!("no column `{name}`"));
+        if (0..header.len()).any(|cell| header.is_number(cell)) {
+            return problem
+                .because("numbers")
+                .help("begin the table with a line of column names");
+        }
+        let delimiter = section.grid.delimiter();
+        let by = DELIMITERS.iter().find(|(known, _)| *known == delimiter);
+        let because = match (header.len(), by) {
+            (1, _) | (_, None) => "one column".to_owned(),
+            (count, Some((_, by))) => format!("{count} columns, separated by {by}"),
+        };
+        let (first, unit) = (self.names.first(), self.dimension.common_unit());
+        problem.because(because).help(format!(
+            "name the column of {} with its unit, such as `{name}` or `{} [{unit}]`",
+            self.what,
+            first.unwrap_or(&""),
+        ))
     }
 
     /// The unit that a cell of the header gives this column, if any; `None` where it names another column.
@@ -116,42 +156,6 @@ impl Column {
             }
         })
     }
-}
-
-/// Name and unit in `Time [s]`, `Time (s)` and `Time / s`; the argument of `E(t)` is no unit.
-pub(crate) fn split_unit(cell: &str) -> (&str, Option<&str>) {
-    let bracketed = [('[', ']'), ('(', ')')]
-        .into_iter()
-        .find_map(|(open, close)| cell.strip_suffix(close)?.rsplit_once(open))
-        .filter(|(_, unit)| *unit != "t");
-    match bracketed.or_else(|| cell.rsplit_once(" / ")) {
-        Some((name, unit)) => (name, Some(unit.trim())),
-        None => (cell, None),
-    }
-}
-
-/// The unit that `per_mpa`, `ms` or `rad_per_s` stand for, where it is one of this dimension.
-pub(crate) fn unit_of_suffix(suffix: &str, dimension: Dimension) -> Option<String> {
-    let spelt = |word: &str| {
-        let lower = word.to_lowercase();
-        let usual = SUFFIXES.iter().find(|(suffix, _)| *suffix == lower);
-        usual.map_or(word.to_owned(), |(_, unit)| (*unit).to_owned())
-    };
-    let words = |text: &str| text.split('_').map(spelt).collect::<Vec<_>>().join(" ");
-    let unit = |text: &str| words(text).replace("per ", "/").replace(" /", "/");
-    let candidates = [unit(suffix), unit(&suffix.to_lowercase())];
-    let unit = candidates
-        .into_iter()
-        .find(|unit| factor(unit, dimension).is_ok())?;
-    Some(match unit.starts_with('/') {
-        true => format!("1{unit}"),
-        false => unit,
-    })
-}
-
-/// What a number in this unit is multiplied by to be in SI units.
-fn factor(unit: &str, dimension: Dimension) -> Result<f64, QuantityError> {
-    quantity::parse(&format!("1 {unit}"), dimension)
 }
 
 /// The bytes of the file that a key names, and what messages call it. `None` where a problem was reported.
@@ -227,35 +231,29 @@ impl DataFile {
 
     /// Whether the header has one of these columns.
     pub(crate) fn has_any(&self, columns: &[Column]) -> bool {
-        let header = self.header(columns);
-        let cells = header.map(|header| header.texts()).unwrap_or_default();
-        let is_wanted = |cell| columns.iter().any(|column| column.unit_in(cell).is_some());
-        cells.into_iter().any(is_wanted)
+        !self.headings(columns).0.is_empty()
     }
 
     /// The headings that name one of these columns, and all others, each in the order of the table; without those that are empty.
     pub(crate) fn headings(&self, wanted: &[Column]) -> (Vec<String>, Vec<String>) {
-        let header = self.header(wanted);
-        let cells = header.map(|header| header.texts()).unwrap_or_default();
-        let is_wanted = |cell: &str| wanted.iter().any(|column| column.unit_in(cell).is_some());
-        let named = cells
-            .into_iter()
-            .map(str::trim)
-            .filter(|cell| !cell.is_empty());
-        named.map(str::to_owned).partition(|cell| is_wanted(cell))
+        let grid = self.header(wanted);
+        let header = grid.line(0);
+        let named = header.texts().filter(|cell| !cell.is_empty());
+        let is_wanted = |cell: &String| wanted.iter().any(|column| column.is_named(cell));
+        named.map(str::to_owned).partition(is_wanted)
     }
 
     /// Of each of these columns the first of its names that the header has, and that name alone; `None` where it has none.
     pub(crate) fn first_named(&self, columns: &[Column]) -> Vec<Option<Column>> {
-        let header = self.header(columns);
-        let cells = header.map(|header| header.texts()).unwrap_or_default();
+        let grid = self.header(columns);
+        let header = grid.line(0);
         let first = |column: &Column| {
             let one_name = |place: usize| Column {
                 names: &column.names[place..=place],
                 ..*column
             };
             let mut names = (0..column.names.len()).map(one_name);
-            names.find(|named| cells.iter().any(|cell| named.unit_in(cell).is_some()))
+            names.find(|named| header.texts().any(|cell| named.is_named(cell)))
         };
         columns.iter().map(first).collect()
     }
@@ -268,64 +266,26 @@ impl DataFile {
     pub(crate) fn columns(
         &self,
         wanted: &[Column],
-        without_number: &str,
-    ) -> Result<Table, Diagnostics> {
-        self.columns_read(wanted, without_number, Holes::Refused)
-    }
-
-    /// The same of what was measured: a row in which one of these numbers is missing (empty, `NaN`, `NA`, a dash) is passed over.
-    ///
-    /// # Errors
-    /// As [`DataFile::columns`].
-    pub(crate) fn columns_of_whole_rows(
-        &self,
-        wanted: &[Column],
-        without_number: &str,
-    ) -> Result<Table, Diagnostics> {
-        self.columns_read(wanted, without_number, Holes::PassedOver)
-    }
-
-    /// The same where the other numbers of such a row count: the missing one is read as a NaN.
-    ///
-    /// # Errors
-    /// As [`DataFile::columns`].
-    pub(crate) fn columns_with_holes(
-        &self,
-        wanted: &[Column],
-        without_number: &str,
-    ) -> Result<Table, Diagnostics> {
-        self.columns_read(wanted, without_number, Holes::Kept)
-    }
-
-    fn columns_read(
-        &self,
-        wanted: &[Column],
-        without_number: &str,
         holes: Holes,
+        without_number: &str,
     ) -> Result<Table, Diagnostics> {
-        let Some(header) = self.header(wanted) else {
+        let header = self.header(wanted);
+        if header.len() == 0 {
             let names: Vec<String> = wanted.iter().map(Column::name_in_si).collect();
             let example = names.join(",");
             return Err(Diagnostic::at(&self.first_line(), "the table is empty")
                 .help(format!("begin it with a line of column names: `{example}`"))
                 .into());
-        };
-        let found = wanted.iter().map(|column| header.find(column));
-        let found: Vec<Found> = found.collect::<Result<_, _>>()?;
-        let mut lines = header.after.clone();
-        let units = header.units_row(&mut lines, &found);
-        let places = found.iter().map(|found| found.place).collect();
-        let mut rows = Rows::new(&header, places, holes);
-        rows.read(lines, without_number)?;
-        let mut table = rows.table;
-        for (which, ((column, found), unit)) in wanted.iter().zip(&found).zip(&units).enumerate() {
-            let factor = header.factor(column, found, unit.as_ref())?;
-            let values = table.values.iter_mut().skip(which);
-            values
-                .step_by(wanted.len())
-                .for_each(|value| *value *= factor);
         }
-        Ok(table)
+        let grid = Grid::of_table(&self.source, header.delimiter(), usize::MAX);
+        let is_wanted = |cell: &str| wanted.iter().any(|column| column.is_named(cell));
+        let names = grid.line(0);
+        let section = Section::new(&grid, 0, grid.len(), |place| is_wanted(names.text(place)));
+        let asked = wanted.iter().map(|column| column.asked(&section));
+        let asked: Vec<Asked> = asked.collect::<Result<_, _>>()?;
+        let problems = Problems::new();
+        let table = section.read(&asked, holes, without_number, &problems);
+        problems.into_result(Some(table))
     }
 
     /// All cells as numbers: a matrix without a header.
@@ -333,18 +293,26 @@ impl DataFile {
     /// # Errors
     /// Nothing but comments, rows of different length, cells that are no numbers.
     pub(crate) fn matrix(&self, without_number: &str) -> Result<Table, Diagnostics> {
-        let is_numeric = |first: &Header<'_>| {
-            let number = |cell: &str| plain_number(cell, first.delimiter).is_some();
-            let mut cells = first.texts().into_iter();
-            usize::from(cells.all(|cell| cell.is_empty() || number(cell)))
+        let is_numeric = |first: &Line<'_>| {
+            let is_cell = |cell: usize| first.text(cell).is_empty() || first.is_number(cell);
+            usize::from((0..first.len()).all(is_cell))
         };
-        let Some(first) = self.first(is_numeric) else {
+        let first = self.opening(is_numeric);
+        if first.len() == 0 {
             let help = "give one line of numbers per row, or per point";
             return Err(self.no_numbers(help).into());
+        }
+        let grid = Grid::of_table(&self.source, first.delimiter(), usize::MAX);
+        let section = Section::without_names(&grid, 0);
+        let column = |place| Asked {
+            place,
+            scale: Scale::ONE,
+            what: "",
         };
-        let mut rows = Rows::new(&first, (0..first.cells.len()).collect(), Holes::Refused);
-        rows.read(self.lines(), without_number)?;
-        Ok(rows.table)
+        let asked: Vec<Asked> = (0..section.header.len()).map(column).collect();
+        let problems = Problems::new();
+        let table = section.read(&asked, Holes::Refused, without_number, &problems);
+        problems.into_result(Some(table))
     }
 
     /// A problem of a file without numbers.
@@ -354,34 +322,25 @@ impl DataFile {
 
     /// The first line, for messages.
     pub(crate) fn first_line(&self) -> Location {
-        match self.lines().start() {
-            Some(start) => line_at(&self.source, start),
-            None => Location::whole(&self.source),
-        }
-    }
-
-    fn lines(&self) -> Lines<'_> {
-        Lines {
-            text: self.source.text(),
-            position: 0,
-        }
+        Grid::of_table(&self.source, ',', 1).place(0)
     }
 
     /// The first line, cut by the delimiter that shows most of the columns.
-    fn header(&self, wanted: &[Column]) -> Option<Header<'_>> {
-        self.first(|header| {
-            let cells = header.texts();
-            let is_there = |c: &&Column| cells.iter().any(|cell| c.unit_in(cell).is_some());
+    fn header(&self, wanted: &[Column]) -> Grid {
+        self.opening(|header| {
+            let is_there = |column: &&Column| header.texts().any(|cell| column.is_named(cell));
             wanted.iter().filter(is_there).count()
         })
     }
 
     /// The first line, cut by the delimiter that does best; of equal ones the first that is there.
-    fn first(&self, score: impl Fn(&Header<'_>) -> usize) -> Option<Header<'_>> {
-        let start = self.lines().start()?;
-        let cut = DELIMITERS.map(|(delimiter, _)| Header::new(&self.source, start, delimiter));
-        let cut = cut.into_iter().rev();
-        cut.max_by_key(|line| (score(line), line.cells.len() > 1))
+    fn opening(&self, score: impl Fn(&Line<'_>) -> usize) -> Grid {
+        let cut = DELIMITERS.map(|(delimiter, _)| Grid::of_table(&self.source, delimiter, 1));
+        let best = cut.into_iter().rev().max_by_key(|grid| {
+            let line = grid.line(0);
+            (score(&line), line.len() > 1)
+        });
+        best.unwrap_or_else(|| Grid::of_table(&self.source, ',', 1))
     }
 }
 
@@ -395,7 +354,8 @@ mod tests {
 
     fn read(text: &str) -> Result<Vec<[f64; 2]>, String> {
         let file = DataFile::from_bytes("dma.txt", text.as_bytes());
-        let table = file.and_then(|file| file.columns(&[FREQUENCY, MODULUS], "leave it out"));
+        let table = file
+            .and_then(|file| file.columns(&[FREQUENCY, MODULUS], Holes::Refused, "leave it out"));
         let table = table.map_err(|refused| refused.to_string())?;
         Ok(table.values.chunks(2).map(|row| [row[0], row[1]]).collect())
     }

@@ -1,6 +1,6 @@
 //! Drive tables: a [`DataFile`] with a column of times and one of loads or approaches, among others if need be.
 
-use super::data_file::{Column, DataFile, TIME};
+use super::data_file::{Column, DataFile, Holes, TIME};
 use super::diagnostic::{Diagnostic, Diagnostics};
 use crate::drive::Control;
 use crate::quantity::Dimension;
@@ -22,7 +22,11 @@ pub(super) fn parse(
         Control::Approach => Column::new(&["approach"], Dimension::Length, "approaches"),
     };
     let without_number = "leave out the row where there is no value, or replace it";
-    let table = DataFile::from_bytes(name, bytes)?.columns(&[TIME, value], without_number)?;
+    let table = DataFile::from_bytes(name, bytes)?.columns(
+        &[TIME, value],
+        Holes::Refused,
+        without_number,
+    )?;
     if table.len() > MAX_POINTS {
         let message = format!("a table of a drive has at most {MAX_POINTS} points");
         let diagnostic = Diagnostic::at(&table.row(MAX_POINTS), message);

@@ -6,7 +6,7 @@
 pub(super) mod npy;
 mod points;
 
-use super::data_file::{Column, DataFile};
+use super::data_file::{Column, DataFile, Holes};
 use super::diagnostic::{Diagnostic, Diagnostics};
 use crate::quantity::Dimension;
 
@@ -48,7 +48,7 @@ pub fn field(name: &str, bytes: &[u8]) -> Result<Field, Diagnostics> {
     }
     let file = DataFile::from_bytes(name, bytes)?;
     if file.has_any(&MAP_COLUMNS) {
-        let table = file.columns(&MAP_COLUMNS, HOLE)?;
+        let table = file.columns(&MAP_COLUMNS, Holes::Refused, HOLE)?;
         return points::field(&file, &table).map_err(Diagnostics::from);
     }
     let table = file.matrix(HOLE)?;
@@ -66,7 +66,7 @@ pub fn field(name: &str, bytes: &[u8]) -> Result<Field, Diagnostics> {
 /// Missing columns, bad numbers, radii that do not begin at 0 and increase.
 pub fn profile(name: &str, bytes: &[u8]) -> Result<Vec<(f64, f64)>, Diagnostics> {
     let file = DataFile::from_bytes(name, bytes)?;
-    let table = file.columns(&PROFILE_COLUMNS, HOLE)?;
+    let table = file.columns(&PROFILE_COLUMNS, Holes::Refused, HOLE)?;
     let (radii_m, gaps_m) = (table.column(0), table.column(1));
     match radii_m.as_slice() {
         [] => return Err(file.no_numbers("give one point per line").into()),

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use super::data_file::{Column, DataFile, MAX_BYTES};
+use super::data_file::{Column, DataFile, Holes, MAX_BYTES};
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Source};
 use super::document::{cannot_read, read_limited};
 use super::field_file::npy;
@@ -61,7 +61,7 @@ pub fn parse(name: &str, bytes: &[u8]) -> Result<Signal, Diagnostics> {
     let named = named.into_iter().zip(COLUMNS);
     let wanted: Vec<Column> = named.map(|(named, any)| named.unwrap_or(any)).collect();
     let wanted = &wanted[..if has_radius { 4 } else { 3 }];
-    let table = file.columns_with_holes(wanted, NO_NUMBER)?;
+    let table = file.columns(wanted, Holes::Kept, NO_NUMBER)?;
     Ok(Signal {
         time_s: table.column(0),
         load_n: table.column(1),

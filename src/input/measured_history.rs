@@ -1,6 +1,6 @@
 //! Tables of a measured history: times, and the approach under a prescribed load or the load under a prescribed approach.
 
-use super::data_file::{Column, DataFile, TIME};
+use super::data_file::{Column, DataFile, Holes, TIME};
 use super::diagnostic::{Diagnostic, Diagnostics, Problems};
 use crate::drive::{Control, SegmentedDrive};
 use crate::identify::data::{Reading, TableColumns};
@@ -42,7 +42,7 @@ pub(super) fn parse(
         wanted.push(error);
     }
     let without_number = "write a number, or leave the cell empty where nothing was measured";
-    let table = file.columns_of_whole_rows(&wanted, without_number)?;
+    let table = file.columns(&wanted, Holes::PassedOver, without_number)?;
     if table.len() > MAX_ROWS {
         let message = format!("a measured history has at most {MAX_ROWS} rows");
         let diagnostic = Diagnostic::at(&table.row(MAX_ROWS), message);

@@ -1,6 +1,6 @@
 //! Tables of measured cycles: columns of `sweep.csv` under their names, one row a cycle, cells empty where nothing was measured.
 
-use super::data_file::{Column, DataFile, Table};
+use super::data_file::{Column, DataFile, Holes, Table};
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems};
 use crate::drive::{Control, HarmonicDrive};
 use crate::identify::ApproachZero;
@@ -121,7 +121,7 @@ pub(super) fn parse(
     let (wanted, drive_columns) = wanted(&file, drive.control(), is_analysis, &data_columns)?;
     let problems = Problems::new();
     let rows = Rows {
-        table: file.columns_with_holes(&wanted, EMPTY)?,
+        table: file.columns(&wanted, Holes::Kept, EMPTY)?,
         wanted,
         drive,
         drive_columns,

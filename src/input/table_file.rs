@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use super::data_file::{Column, DataFile, TIME};
+use super::data_file::{Column, DataFile, Holes, TIME};
 use super::diagnostic::{Diagnostic, Diagnostics, Location};
 use crate::material::tabulated::{TableColumn, TableError, Tabulated};
 use crate::material::{MaterialFunction, ModulusKind};
@@ -93,8 +93,9 @@ fn tabulated(
     let wanted = named
         .zip([TIMES, values])
         .map(|(named, any)| named.unwrap_or(any));
-    let table = file.columns_of_whole_rows(
+    let table = file.columns(
         &wanted.collect::<Vec<_>>(),
+        Holes::PassedOver,
         "write it as `1.5e-9`, or leave the cell empty where the number is missing",
     )?;
     let (times_s, numbers) = (table.column(0), table.column(1));

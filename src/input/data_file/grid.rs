@@ -1,17 +1,11 @@
-//! A text as lines of cells, of which any may be a header, a row of units, a row of numbers or none of these: what instruments write.
-//! Comments are lines too; a number may be marked as missing.
+//! A text as lines of cells, of which any may be a header, a row of units, a row of numbers or none of these.
 
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::rows::{DecimalSigns, line_at, plain_number};
+use super::numbers;
 use super::text::{self, DELIMITERS};
-use crate::input::diagnostic::{Diagnostics, Location, Problems, Source};
-
-/// How instruments write that a number is missing, in lower case.
-pub(super) const MISSING: [&str; 12] = [
-    "", "-", "--", "---", "n/a", "na", "n.a.", "nan", "#n/a", "-nan", "none", "null",
-];
+use crate::input::diagnostic::{Diagnostics, Location, Source};
 
 /// The text of an instrument's file, and how many of its bytes were no UTF-8.
 ///
@@ -24,21 +18,14 @@ pub(crate) fn source(name: &str, bytes: &[u8]) -> Result<(Arc<Source>, usize), D
 
 /// A text cut into lines of cells by one delimiter.
 pub(crate) struct Grid {
-    source: Arc<Source>,
+    pub(super) source: Arc<Source>,
     delimiter: char,
     /// Whether several blanks, not one, separate the cells of a header, so that names may hold blanks.
     wide: bool,
+    /// Whether an instrument wrote the text: blanks at the end of a line are no cells.
+    by_instrument: bool,
     /// Where the lines begin that hold anything.
     starts: Vec<usize>,
-}
-
-/// What stands in a cell where a number belongs.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Cell {
-    Number(f64),
-    Missing,
-    /// Why it is none.
-    Bad(&'static str),
 }
 
 impl Grid {
@@ -52,24 +39,48 @@ impl Grid {
         single.into_iter().chain([wide])
     }
 
-    /// Cuts a text. Quotation marks hide delimiters, and do not hide line ends.
+    /// Cuts what an instrument wrote: comments are lines too, and lines of delimiters alone hold nothing.
     pub(crate) fn new(source: &Arc<Source>, delimiter: char) -> Self {
-        let (mut starts, mut position) = (Vec::new(), 0);
-        for line in source.text().split_inclusive('\n') {
-            // Delimiters alone hold nothing.
-            if !line
-                .trim_matches(|c: char| c.is_whitespace() || ",;|\"".contains(c))
-                .is_empty()
-            {
-                starts.push(position);
-            }
-            position += line.len();
-        }
-        let source = Arc::clone(source);
+        let holds_nothing = |c: char| c.is_whitespace() || ",;|\"".contains(c);
+        let is_line = |line: &str| !line.trim_matches(holds_nothing).is_empty();
         Self {
-            source,
+            by_instrument: true,
+            ..Self::cut(source, delimiter, usize::MAX, is_line)
+        }
+    }
+
+    /// Cuts at most so many lines of a table, in which empty lines and comments are none.
+    pub(super) fn of_table(source: &Arc<Source>, delimiter: char, most: usize) -> Self {
+        let is_line = |line: &str| !matches!(line.trim_start().bytes().next(), None | Some(b'#'));
+        Self::cut(source, delimiter, most, is_line)
+    }
+
+    /// Quotation marks hide delimiters and line ends.
+    fn cut(
+        source: &Arc<Source>,
+        delimiter: char,
+        most: usize,
+        is_line: impl Fn(&str) -> bool,
+    ) -> Self {
+        let (text, mut at) = (source.text(), 0);
+        let (mut starts, mut cells) = (Vec::new(), Vec::new());
+        while let Some(rest) = text.get(at..).filter(|rest| !rest.is_empty())
+            && starts.len() < most
+        {
+            let line = rest.split('\n').next().unwrap_or_default();
+            if is_line(line) {
+                starts.push(at);
+            }
+            at = match is_line(line) && line.contains('"') && !is_comment(line) {
+                true => text::cells_from(text, at, delimiter, &mut cells),
+                false => at + line.len() + 1,
+            };
+        }
+        Self {
+            source: Arc::clone(source),
             delimiter,
             wide: false,
+            by_instrument: false,
             starts,
         }
     }
@@ -88,51 +99,46 @@ impl Grid {
         Location::whole(&self.source)
     }
 
-    /// The text of a line, empty behind the last one.
-    pub(crate) fn text(&self, line: usize) -> &str {
-        let start = self.starts.get(line).copied().unwrap_or(usize::MAX);
-        let rest = self.source.text().get(start..).unwrap_or_default();
-        rest.split('\n').next().unwrap_or_default().trim_end()
+    /// Where a line begins; behind the last one, the end of the text.
+    pub(super) fn start(&self, line: usize) -> usize {
+        let end = self.source.text().len();
+        self.starts.get(line).copied().unwrap_or(end)
     }
 
-    /// A line as a place.
+    /// The text of a line, empty behind the last one.
+    pub(crate) fn text(&self, line: usize) -> &str {
+        let rest = self.source.text().get(self.start(line)..);
+        let first = rest.unwrap_or_default().split('\n').next();
+        first.unwrap_or_default().trim_end()
+    }
+
+    /// A line as a place; the whole text behind the last one.
     pub(crate) fn place(&self, line: usize) -> Location {
-        match self.starts.get(line) {
-            Some(start) => line_at(&self.source, *start),
-            None => self.whole(),
+        match line < self.len() {
+            true => line_at(&self.source, self.start(line)),
+            false => self.whole(),
         }
     }
 
     /// Whether the line begins with `#`.
     pub(crate) fn is_comment(&self, line: usize) -> bool {
-        self.text(line).trim_start().starts_with('#')
+        is_comment(self.text(line))
     }
 
     /// The cells of a line, of a comment those behind its mark.
     pub(crate) fn line(&self, line: usize) -> Line<'_> {
-        let (text, mut cells) = (self.source.text(), Vec::new());
-        if let Some(start) = self.starts.get(line) {
-            let marks = self
-                .text(line)
-                .find(|c: char| c != '#' && !c.is_whitespace());
-            let skipped = if self.is_comment(line) {
-                marks.unwrap_or(0)
-            } else {
-                0
-            };
-            let end = start + self.text(line).len();
-            text::cells_from(
-                text.get(..end).unwrap_or(text),
-                start + skipped,
-                self.delimiter,
-                &mut cells,
-            );
-        }
-        Line {
-            source: &self.source,
-            delimiter: self.delimiter,
-            cells,
-        }
+        let (text, start, next) = (self.source.text(), self.start(line), self.start(line + 1));
+        let own = text.get(start..next).unwrap_or_default();
+        let end = match self.by_instrument {
+            true => start + own.trim_end().len(),
+            false => next,
+        };
+        let is_mark = |c: char| c == '#' || c.is_whitespace();
+        let skipped = match is_comment(own) {
+            true => own.len() - own.trim_start_matches(is_mark).len(),
+            false => 0,
+        };
+        Line::cut(&self.source, self.delimiter, start + skipped..end)
     }
 
     /// The cells of a line that may hold names: where blanks separate cells, a unit in brackets belongs to the name before it.
@@ -162,35 +168,53 @@ impl Grid {
         cut.cells = cells;
         cut
     }
+}
 
-    /// Reads the numbers of these lines. Where one of them has both a point and a comma, `1,234.5` or `1.234,5`, or one of them twice,
-    /// the other groups thousands in all; else commas that may separate decimals or thousands are refused.
-    pub(crate) fn numbers(&self, mut lines: Range<usize>) -> Numbers<'_> {
-        let grouped = |line: usize| self.line(line).texts().find_map(grouping_sign);
-        Numbers {
-            grid: self,
-            grouping: lines.find_map(grouped),
-            signs: DecimalSigns::default(),
-        }
-    }
+fn is_comment(line: &str) -> bool {
+    line.trim_start().starts_with('#')
+}
+
+/// The line that begins at `start`.
+pub(super) fn line_at(source: &Arc<Source>, start: usize) -> Location {
+    let rest = source.text().get(start..).unwrap_or_default();
+    let line = rest.split('\n').next().unwrap_or_default();
+    Location::new(source, start..start + line.trim_end().len())
 }
 
 /// The cells of a line.
 pub(crate) struct Line<'a> {
     source: &'a Arc<Source>,
-    delimiter: char,
+    pub(super) delimiter: char,
     cells: Vec<Range<usize>>,
 }
 
 impl<'a> Line<'a> {
+    /// The cells of the first line of a part of a text.
+    pub(super) fn cut(source: &'a Arc<Source>, delimiter: char, part: Range<usize>) -> Self {
+        let mut cells = Vec::new();
+        let text = source.text().get(..part.end).unwrap_or_default();
+        if !part.is_empty() {
+            text::cells_from(text, part.start, delimiter, &mut cells);
+        }
+        Self {
+            source,
+            delimiter,
+            cells,
+        }
+    }
+
     pub(crate) fn len(&self) -> usize {
         self.cells.len()
     }
 
+    /// Where the text of a cell stands, nowhere behind the last one.
+    pub(super) fn span(&self, cell: usize) -> Range<usize> {
+        self.cells.get(cell).cloned().unwrap_or_default()
+    }
+
     /// The text of a cell, empty behind the last one.
     pub(crate) fn text(&self, cell: usize) -> &'a str {
-        let span = self.cells.get(cell).cloned().unwrap_or(0..0);
-        self.source.text().get(span).unwrap_or_default()
+        self.source.text().get(self.span(cell)).unwrap_or_default()
     }
 
     pub(crate) fn texts(&self) -> impl Iterator<Item = &'a str> + '_ {
@@ -206,115 +230,59 @@ impl<'a> Line<'a> {
 
     /// What stands in a cell, if it is a number.
     pub(crate) fn is_number(&self, cell: usize) -> bool {
-        number(self.text(cell), self.delimiter).is_some_and(f64::is_finite)
+        numbers::number(self.text(cell)).is_some_and(f64::is_finite)
     }
 
-    /// The same line without its first cells.
-    pub(crate) fn without(mut self, cells: usize) -> Self {
-        self.cells.drain(..cells.min(self.cells.len()));
+    /// The same line without the empty cell that some instruments put before a row.
+    pub(crate) fn aligned(mut self, columns: usize) -> Self {
+        let is_shifted = self.len() == columns + 1 && self.text(0).is_empty();
+        self.cells.drain(..usize::from(is_shifted));
         self
     }
 }
 
-/// Reads cells as numbers, and remembers how they separate decimals.
-pub(crate) struct Numbers<'a> {
-    grid: &'a Grid,
-    /// The sign that groups thousands, where one does.
-    grouping: Option<char>,
-    signs: DecimalSigns,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-impl Numbers<'_> {
-    pub(crate) fn read(&mut self, line: &Line<'_>, cell: usize) -> Cell {
-        let text = line.text(cell);
-        if MISSING.contains(&text.to_lowercase().as_str()) {
-            return Cell::Missing;
-        }
-        if let Some(sign) = self.grouping {
-            return grouped_number(text, sign);
-        }
-        match number(text, line.delimiter) {
-            None => Cell::Bad("not a number"),
-            Some(number) if !number.is_finite() => Cell::Bad("not a finite number"),
-            Some(number) => {
-                if let Some(span) = line.cells.get(cell)
-                    && (line.delimiter != ',' || text.contains(','))
-                {
-                    self.signs.see(text, span);
-                }
-                Cell::Number(number)
-            }
-        }
+    fn cut(text: &str, delimiter: char) -> Vec<Vec<String>> {
+        let grid = Grid::of_table(&Source::file("a", text), delimiter, usize::MAX);
+        let line = |line| grid.line(line).texts().map(str::to_owned).collect();
+        (0..grid.len()).map(line).collect()
     }
 
-    /// Reports commas that may separate decimals or thousands.
-    pub(crate) fn check(&self, problems: &Problems) {
-        self.signs.check(&self.grid.source, problems);
+    #[test]
+    fn lines_are_cut_at_their_delimiter() {
+        assert_eq!(
+            cut("a , b,,c\r\n1,2,3,4", ','),
+            [["a", "b", "", "c"], ["1", "2", "3", "4"]]
+        );
+        assert_eq!(cut("a\t\tb\n", '\t'), [["a", "", "b"]]);
+        assert_eq!(
+            cut("  a \t b  c \r\n d e f", ' '),
+            [["a", "b", "c"], ["d", "e", "f"]]
+        );
+        assert_eq!(cut("# x\n\n  # y\n \t\n1;2\n#", ';'), [["1", "2"]]);
     }
-}
 
-/// The sign that groups thousands, where a number tells.
-pub(super) fn grouping_sign(text: &str) -> Option<char> {
-    let digits = text.trim_start_matches(['-', '+', '\u{2212}']);
-    let is_numeric = digits.starts_with(|c: char| c.is_ascii_digit())
-        && digits
-            .chars()
-            .all(|c| c.is_ascii_digit() || ".,eE+-".contains(c));
-    if !is_numeric {
-        return None;
+    #[test]
+    fn quotation_marks_hide_delimiters_and_line_ends() {
+        assert_eq!(cut("a,\" b, \"\"c\" ,d\n", ','), [["a", "b, \"\"c", "d"]]);
+        assert_eq!(cut("\"a\nb\",c\n1,2\n", ','), [["a\nb", "c"], ["1", "2"]]);
+        // Marks that do not enclose a cell are text.
+        assert_eq!(
+            cut("5\",\"x\"y,\"z\n1,2,3\n", ','),
+            [["5\"", "\"x\"y", "\"z"], ["1", "2", "3"]]
+        );
     }
-    [(',', '.'), ('.', ',')]
-        .into_iter()
-        .find_map(|(sign, decimal)| {
-            let (whole, has_decimals) = match digits.split_once(decimal) {
-                Some((whole, _)) => (whole, true),
-                None => (digits, false),
-            };
-            let groups = whole.matches(sign).count();
-            let is_told = groups > 1 || (groups == 1 && has_decimals);
-            (is_told && are_groups(whole, sign)).then_some(sign)
-        })
-}
 
-/// Whether a number is of digits in groups of three.
-fn are_groups(whole: &str, sign: char) -> bool {
-    let mut groups = whole.split(sign);
-    let is_digits = |group: &str| group.bytes().all(|byte| byte.is_ascii_digit());
-    let first = groups.next().unwrap_or_default();
-    (1..=3).contains(&first.len())
-        && is_digits(first)
-        && groups.all(|group| group.len() == 3 && is_digits(group))
-}
-
-/// A number whose thousands may be grouped by this sign.
-pub(super) fn grouped_number(text: &str, sign: char) -> Cell {
-    let decimal = if sign == ',' { '.' } else { ',' };
-    let whole = text.split([decimal, 'e', 'E']).next().unwrap_or_default();
-    let digits = whole.trim_start_matches(['-', '+']);
-    if digits.contains(sign) && !are_groups(digits, sign) {
-        return Cell::Bad("not a number where thousands are grouped");
+    #[test]
+    fn comments_of_an_instrument_are_lines_and_delimiters_alone_are_none() {
+        let grid = Grid::new(&Source::file("a", "# f,\"E\n,,;\n1,2\n"), ',');
+        assert_eq!(grid.len(), 2);
+        assert!(grid.is_comment(0) && !grid.is_comment(1));
+        assert!(grid.line(0).texts().eq(["f", "\"E"]));
+        assert!(grid.line(1).texts().eq(["1", "2"]));
+        assert_eq!(grid.line(2).len(), 0);
     }
-    let plain: String = text
-        .chars()
-        .filter(|c| *c != sign)
-        .map(|c| if c == decimal { '.' } else { c })
-        .collect();
-    match plain.parse::<f64>() {
-        Ok(number) if number.is_finite() => Cell::Number(number),
-        Ok(_) => Cell::Bad("not a finite number"),
-        Err(_) => Cell::Bad("not a number"),
-    }
-}
-
-/// A number; between quotation marks a comma may stand for its point even where commas separate cells.
-fn number(text: &str, delimiter: char) -> Option<f64> {
-    let minus;
-    let text = match text.strip_prefix('\u{2212}') {
-        Some(rest) => {
-            minus = format!("-{rest}");
-            &minus
-        }
-        None => text,
-    };
-    plain_number(text, if delimiter == ',' { ';' } else { delimiter })
 }

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use encoding_rs::{Encoding, UTF_8, UTF_16BE, UTF_16LE};
+
 use crate::input::diagnostic::Diagnostic;
 use crate::input::document::not_utf8;
 use crate::input::file_kind;
@@ -17,91 +19,50 @@ pub(super) const DELIMITERS: [(char, &str); 5] = [
 
 /// The text of a file: UTF-8, or UTF-16 in either byte order; without a byte order mark, lines ended by `\n` or `\r\n`.
 pub(super) fn decode(name: &str, bytes: &[u8]) -> Result<String, Diagnostic> {
-    file_kind::refuse_binary(name, bytes)?;
-    let text = match bytes {
-        [0xff, 0xfe, rest @ ..] => utf_16(name, rest, u16::from_le_bytes)?,
-        [0xfe, 0xff, rest @ ..] => utf_16(name, rest, u16::from_be_bytes)?,
-        // Latin letters of UTF-16 without its mark.
-        [letter, 0, ..] if *letter > 0 => utf_16(name, bytes, u16::from_le_bytes)?,
-        [0, letter, ..] if *letter > 0 => utf_16(name, bytes, u16::from_be_bytes)?,
-        _ => {
-            let text = std::str::from_utf8(bytes)
-                .map_err(|error| not_utf8(name, bytes, error.valid_up_to()))?;
-            text.trim_start_matches('\u{feff}').to_owned()
-        }
-    };
-    Ok(match text.contains('\n') {
-        true => text,
-        false => text.replace('\r', "\n"),
-    })
+    let (text, stray) = decode_instrument(name, bytes)?;
+    match std::str::from_utf8(bytes) {
+        Err(error) if stray > 0 => Err(not_utf8(name, bytes, error.valid_up_to())),
+        _ => Ok(text),
+    }
 }
 
 /// The text of a file that an instrument wrote, and the number of bytes that are no UTF-8: those are taken as letters of Latin-1, one
 /// by one, so that a stray byte does not change how the others are read.
 pub(super) fn decode_instrument(name: &str, bytes: &[u8]) -> Result<(String, usize), Diagnostic> {
     file_kind::refuse_binary(name, bytes)?;
-    let is_utf_16 = matches!(bytes, [0xff, 0xfe, ..] | [0xfe, 0xff, ..])
-        || matches!(bytes, [a, b, ..] if (*a == 0) != (*b == 0));
-    if is_utf_16 || std::str::from_utf8(bytes).is_ok() {
-        return Ok((decode(name, bytes)?, 0));
-    }
+    let marked = Encoding::for_bom(bytes).map(|(encoding, _)| encoding);
+    let encoding = match bytes {
+        // Latin letters of UTF-16 without its mark.
+        [letter, 0, ..] if *letter > 0 => UTF_16LE,
+        [0, letter, ..] if *letter > 0 => UTF_16BE,
+        _ => marked.unwrap_or(UTF_8),
+    };
+    let (text, stray) = match encoding == UTF_8 {
+        true => latin_1_where_no_utf_8(bytes),
+        false => {
+            let (text, is_broken) = encoding.decode_with_bom_removal(bytes);
+            if is_broken {
+                let message = format!("`{name}` is not the UTF-16 text that it begins as");
+                return Err(Diagnostic::new(message).help("save it again, best as UTF-8"));
+            }
+            (text.into_owned(), 0)
+        }
+    };
+    let text = text.trim_start_matches('\u{feff}');
+    Ok(match text.contains('\n') {
+        true => (text.to_owned(), stray),
+        false => (text.replace('\r', "\n"), stray),
+    })
+}
+
+fn latin_1_where_no_utf_8(bytes: &[u8]) -> (String, usize) {
     let (mut text, mut stray) = (String::with_capacity(bytes.len()), 0);
     for chunk in bytes.utf8_chunks() {
         text.push_str(chunk.valid());
         text.extend(chunk.invalid().iter().copied().map(char::from));
         stray += chunk.invalid().len();
     }
-    Ok((decode(name, text.as_bytes())?, stray))
-}
-
-fn utf_16(name: &str, bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Result<String, Diagnostic> {
-    let units = bytes
-        .chunks(2)
-        // A last half of a unit becomes a surrogate without its partner, which no text has.
-        .map(|pair| <[u8; 2]>::try_from(pair).map_or(0xd800, unit));
-    char::decode_utf16(units)
-        .collect::<Result<_, _>>()
-        .map_err(|_| {
-            Diagnostic::new(format!("`{name}` is not the UTF-16 text that it begins as"))
-                .help("save it again, best as UTF-8")
-        })
-}
-
-/// Goes through the lines of a text that are neither empty nor comments.
-#[derive(Clone)]
-pub(super) struct Lines<'a> {
-    pub(super) text: &'a str,
-    pub(super) position: usize,
-}
-
-impl Lines<'_> {
-    /// Where the next line begins, passing over empty ones and comments.
-    pub(super) fn start(&mut self) -> Option<usize> {
-        while let Some(rest) = self
-            .text
-            .get(self.position..)
-            .filter(|rest| !rest.is_empty())
-        {
-            let line = rest.split('\n').next().unwrap_or_default();
-            if !matches!(line.trim_start().bytes().next(), None | Some(b'#')) {
-                return Some(self.position);
-            }
-            self.position += line.len() + 1;
-        }
-        None
-    }
-
-    /// The cells of the next line, without the blanks and quotation marks around them, and where the line begins. Between quotation
-    /// marks delimiters and line ends are text.
-    pub(super) fn cells(
-        &mut self,
-        delimiter: char,
-        cells: &mut Vec<Range<usize>>,
-    ) -> Option<usize> {
-        let start = self.start()?;
-        self.position = cells_from(self.text, start, delimiter, cells);
-        Some(start)
-    }
+    (text, stray)
 }
 
 /// Cuts the line that begins at `start` into cells; where the next one begins.
@@ -166,40 +127,6 @@ fn closing(bytes: &[u8], from: usize) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn cut(text: &str, delimiter: char) -> Vec<Vec<&str>> {
-        let (mut lines, mut cells, mut rows) =
-            (Lines { text, position: 0 }, Vec::new(), Vec::new());
-        while lines.cells(delimiter, &mut cells).is_some() {
-            rows.push(cells.iter().map(|cell| &text[cell.clone()]).collect());
-        }
-        rows
-    }
-
-    #[test]
-    fn lines_are_cut_at_their_delimiter() {
-        assert_eq!(
-            cut("a , b,,c\r\n1,2,3,4", ','),
-            [["a", "b", "", "c"], ["1", "2", "3", "4"]]
-        );
-        assert_eq!(cut("a\t\tb\n", '\t'), [["a", "", "b"]]);
-        assert_eq!(
-            cut("  a \t b  c \r\n d e f", ' '),
-            [["a", "b", "c"], ["d", "e", "f"]]
-        );
-        assert_eq!(cut("# x\n\n  # y\n \t\n1;2\n#", ';'), [["1", "2"]]);
-    }
-
-    #[test]
-    fn quotation_marks_hide_delimiters_and_line_ends() {
-        assert_eq!(cut("a,\" b, \"\"c\" ,d\n", ','), [["a", "b, \"\"c", "d"]]);
-        assert_eq!(cut("\"a\nb\",c\n1,2\n", ','), [["a\nb", "c"], ["1", "2"]]);
-        // Marks that do not enclose a cell are text.
-        assert_eq!(
-            cut("5\",\"x\"y,\"z\n1,2,3\n", ','),
-            [["5\"", "\"x\"y", "\"z"], ["1", "2", "3"]]
-        );
-    }
 
     #[test]
     fn every_encoding_gives_the_same_text() {

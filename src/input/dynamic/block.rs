@@ -1,37 +1,28 @@
 //! A block of a file: a header, perhaps a row of units, and rows of numbers. What all formats have in common once their blocks are
 //! found: which columns are read, in which units, and what a row must hold.
 
-mod rows;
-
 use std::f64::consts::TAU;
-use std::ops::Range;
 
 use super::columns::{self, Named, Role};
-use super::units::{self, Scale};
+use crate::input::data_file::Holes;
 use crate::input::data_file::grid::{Grid, Line};
+use crate::input::data_file::section::{Asked, Section, Table};
+use crate::input::data_file::units::{Scale, given};
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Location, Problems};
 use crate::material::ModulusKind;
 use crate::material::dynamic::DynamicPoint;
-use rows::RowReader;
-pub(super) use rows::Skipped;
 
-/// Where one table of a file stands.
+/// One table of a file.
 pub(super) struct Block<'a> {
-    pub(super) grid: &'a Grid,
-    pub(super) header: Line<'a>,
-    pub(super) units: Option<Line<'a>>,
-    /// Lines of numbers.
-    pub(super) rows: Range<usize>,
+    pub(super) section: Section<'a>,
     /// What the file calls it.
     pub(super) name: Option<String>,
     /// Where the file says it of the block as a whole.
     pub(super) temperature_k: Option<f64>,
-    /// Whether an instrument wrote it: of columns with the same meaning the first counts, and rows may be short.
+    /// Whether an instrument wrote it: of columns with the same meaning the first counts.
     pub(super) by_instrument: bool,
     /// Whether frequencies are reduced, so that the temperatures of the rows are not that of the curve.
     pub(super) is_master: bool,
-    /// Lines of the rows that are passed over, ascending.
-    pub(super) skipped: Vec<usize>,
 }
 
 /// A row that was read.
@@ -57,16 +48,17 @@ pub(super) struct Content {
 }
 
 /// A column that is read.
-struct Column {
-    place: usize,
-    role: Role,
-    scale: Scale,
+#[derive(Clone)]
+pub(super) struct Column {
+    pub(super) place: usize,
+    pub(super) role: Role,
+    pub(super) scale: Scale,
     /// As written.
-    unit: Option<String>,
+    pub(super) unit: Option<String>,
 }
 
 /// Storage and loss modulus from two columns.
-type Moduli = fn(f64, f64) -> (f64, f64);
+pub(super) type Moduli = fn(f64, f64) -> (f64, f64);
 
 /// Columns that give both moduli, those to be preferred first.
 const PAIRS: [(Role, Role, Moduli); 4] = [
@@ -118,34 +110,25 @@ pub(super) fn lacking(names: &[Option<Named>]) -> Option<&'static str> {
 impl<'a> Block<'a> {
     /// A table whose header is this line: the rows down to `end`, the first of which may be one of units.
     pub(super) fn new(grid: &'a Grid, header: usize, end: usize) -> Self {
-        let cells = grid.header(header);
-        let below = grid.line(header + 1);
-        let roles = names(&cells);
-        let of_column = |place: usize| roles.get(place).is_some_and(Option::is_some);
-        let below = aligned(below, cells.len());
-        let has_number = (0..below.len()).any(|place| of_column(place) && below.is_number(place));
-        let is_row = header + 1 < end
-            && grid.is_comment(header + 1) <= grid.is_comment(header)
-            && !has_number
-            && below.texts().any(units::is_unit);
-        let units = is_row.then_some(below);
-        let rows = header + 1 + usize::from(is_row)..end;
+        let names = names(&grid.header(header));
+        let is_known = |place: usize| names.get(place).is_some_and(Option::is_some);
+        Self::of(Section::new(grid, header, end, is_known))
+    }
+
+    pub(super) fn of(section: Section<'a>) -> Self {
         Self {
-            grid,
-            header: cells,
-            units,
-            rows,
+            section,
             name: None,
             temperature_k: None,
             by_instrument: false,
             is_master: false,
-            skipped: Vec::new(),
         }
     }
 
     /// As an instrument wrote it.
     pub(super) fn by_instrument(mut self) -> Self {
         self.by_instrument = true;
+        self.section.may_be_ragged = true;
         self
     }
 
@@ -155,41 +138,45 @@ impl<'a> Block<'a> {
     /// Columns that are absent, double, without a unit or of the other modulus; cells that are no positive numbers.
     pub(super) fn read(&self, kind: ModulusKind) -> Result<Content, Diagnostics> {
         let columns = self.columns(kind)?;
+        let described = (self.described(&columns), self.assumed(&columns));
+        self.content(&columns, described)
+    }
+
+    /// The rows of these columns, of which something may be said.
+    ///
+    /// # Errors
+    /// Cells that are no positive numbers.
+    pub(super) fn content(
+        &self,
+        columns: &Columns,
+        (described, assumed): (String, Vec<String>),
+    ) -> Result<Content, Diagnostics> {
+        let help =
+            "write it as `1.5e6`, write `---` where it is missing, or leave the whole row out";
+        let problems = Problems::new();
+        let table = self
+            .section
+            .read(&columns.asked(), Holes::Kept, help, &problems);
         let mut content = Content {
             points: Vec::new(),
             missing: 0,
             noise: None,
-            columns: self.described(&columns),
+            columns: described,
             is_in_hertz: columns.frequency.scale.factor == TAU,
-            assumed: self.assumed(&columns),
+            assumed,
         };
-        let mut reader = RowReader {
-            block: self,
-            columns: &columns,
-            numbers: self.grid.numbers(self.rows.clone()),
-            problems: Problems::new(),
-        };
-        let is_read = |line: &usize| {
-            !self.grid.is_comment(*line) && self.skipped.binary_search(line).is_err()
-        };
-        for line in self.rows.clone().filter(is_read) {
-            let place = self.grid.place(line);
-            let row = aligned(self.grid.line(line), self.header.len());
-            match reader.point(&row, &place) {
-                Ok(measured) => content.points.push(measured),
-                Err(Skipped::Noise) => content.noise.get_or_insert((place, 0)).1 += 1,
-                Err(Skipped::Missing) => content.missing += 1,
-                Err(Skipped::Bad) => {}
+        for row in 0..table.len() {
+            match self.point(columns, &table, row) {
+                Row::Measured(measured) => content.points.push(measured),
+                Row::Missing => content.missing += 1,
+                Row::Noise => content.noise.get_or_insert((table.row(row), 0)).1 += 1,
+                Row::Refused(why) => {
+                    problems.push(why);
+                }
             }
         }
-        let RowReader {
-            numbers, problems, ..
-        } = reader;
-        if let Some((first, count)) = content
-            .noise
-            .as_ref()
-            .filter(|(_, count)| *count > content.points.len())
-        {
+        let mostly = content.noise.as_ref();
+        if let Some((first, count)) = mostly.filter(|(_, count)| *count > content.points.len()) {
             let message = format!(
                 "{count} rows of a table of {} hold a value that is not positive",
                 count + content.points.len()
@@ -199,12 +186,61 @@ impl<'a> Block<'a> {
                 .because("the first")
                 .help("check the columns and their signs");
         }
-        numbers.check(&problems);
         problems.into_result(Some(content))
     }
 
+    /// What a row gives.
+    fn point(&self, columns: &Columns, table: &Table, row: usize) -> Row {
+        let values = table.values.iter().skip(row * table.width()).copied();
+        let values: Vec<f64> = values.take(table.width()).collect();
+        let (needed, others) = values.split_at(3);
+        for (which, (column, value)) in columns.all().zip(needed).enumerate() {
+            if *value <= 0.0 {
+                // A loss near zero is as often below it as above, in any table.
+                if self.by_instrument || which == 2 {
+                    return Row::Noise;
+                }
+                let message = format!("{} must be positive", column.role.what());
+                return Row::Refused(
+                    Diagnostic::at(&table.cell(row, which), message)
+                        .help("leave the row out: a measured value that is not positive is noise"),
+                );
+            }
+        }
+        let (temperature, errors) = others.split_at(columns.temperature.iter().count());
+        if needed.iter().chain(temperature).any(|value| value.is_nan()) {
+            return Row::Missing;
+        }
+        let (storage_modulus_pa, loss_modulus_pa) = (columns.moduli)(needed[1], needed[2]);
+        let of_errors = columns.both_errors().zip(<[f64; 2]>::try_from(errors).ok());
+        let errors_pa = of_errors.map(|([a, b], [storage, loss])| {
+            let storage = a.absolute(storage, storage_modulus_pa);
+            (storage, b.absolute(loss, loss_modulus_pa))
+        });
+        let point = DynamicPoint {
+            temperature_k: temperature.first().copied().or(self.temperature_k),
+            angular_frequency_rad_per_s: needed[0],
+            storage_modulus_pa,
+            loss_modulus_pa,
+            errors_pa: errors_pa.filter(|(storage, loss)| *storage > 0.0 && *loss > 0.0),
+        };
+        let place = table.row(row);
+        // Moduli of a very large or very small number may leave what a double holds, and temperatures fall below zero.
+        if let Some((what, value)) = point.not_positive() {
+            let message = format!("{what} must be positive, and is {value:e} in SI units");
+            let help = "leave the row out, or check its units";
+            return Row::Refused(Diagnostic::at(&place, message).help(help));
+        }
+        let set = columns.set.as_ref();
+        Row::Measured(Measured {
+            point,
+            place,
+            set: set.map(|column| table.line(row).text(column.place).to_owned()),
+        })
+    }
+
     fn columns(&self, kind: ModulusKind) -> Result<Columns, Diagnostic> {
-        let names = names(&self.header);
+        let names = names(&self.section.header);
         let find = |role| self.find(&names, role, kind);
         let angular = find(Role::AngularFrequency)?;
         let frequency = match angular {
@@ -253,10 +289,7 @@ impl<'a> Block<'a> {
         match (asked.as_slice(), others.first()) {
             ([], Some((other, _))) => return Err(self.other_modulus(*other, kind)),
             ([(first, _), (second, _), ..], _) if !self.by_instrument => {
-                let message = format!("the table has two columns of {}", role.what());
-                return Err(Diagnostic::at(&self.header.place(*second), message)
-                    .label(&self.header.place(*first), "the other one")
-                    .help("keep one of them"));
+                return Err(self.section.twice([*first, *second], role.what()));
             }
             _ => {}
         }
@@ -275,53 +308,27 @@ impl<'a> Block<'a> {
 
     /// The unit of a column as written, in the header or below it.
     fn unit_of(&self, place: usize, named: &Named) -> Option<String> {
-        let below = self.units.as_ref().map(|units| units.text(place));
+        let below = self.section.units.as_ref().map(|units| units.text(place));
         let unit = named.unit.as_deref().or(below).and_then(given)?;
         Some(unit.to_owned())
     }
 
     fn scale(&self, place: usize, named: &Named) -> Result<Scale, Diagnostic> {
-        let at_header = self.header.place(place);
-        let above = named.unit.as_deref().and_then(given);
-        let above = above.map(|unit| (unit, at_header.clone()));
-        let below = self.units.as_ref();
-        let below = below.and_then(|row| Some((given(row.text(place))?, row.place(place))));
-        let what = named.role.what();
-        let read = |(unit, at): &(&str, Location)| {
-            units::scale(named.role, Some(unit)).map_err(|why| {
-                Diagnostic::at(at, format!("`{unit}` is no unit of the column of {what}"))
-                    .because(why)
-            })
+        let name = self.section.header.text(place);
+        let read = |unit: Option<&str>| match (named.role, unit) {
+            (Role::Frequency, None) => Err(format!(
+                "write `{name} [Hz]` or `{name} [rad/s]`: they differ by a factor of 6.28"
+            )),
+            (role, unit) => columns::scale(role, unit),
         };
-        match (above, below) {
-            (Some(unit), None) | (None, Some(unit)) => read(&unit),
-            (Some(above), Some(below)) => {
-                let (scale, other) = (read(&above)?, read(&below)?);
-                match scale == other {
-                    true => Ok(scale),
-                    false => Err(Diagnostic::at(&below.1, "the header gives another unit")
-                        .label(&above.1, "this one")
-                        .help("keep one of the two")),
-                }
-            }
-            (None, None) => units::scale(named.role, None).map_err(|write| {
-                let problem =
-                    Diagnostic::at(&at_header, format!("the column of {what} has no unit"));
-                match named.role {
-                    Role::Frequency => problem.help(format!(
-                        "write `{0} [Hz]` or `{0} [rad/s]`: they differ by a factor of 6.28",
-                        at_header.text()
-                    )),
-                    _ => problem.help(write),
-                }
-            }),
-        }
+        let column = (place, named.role.what());
+        self.section.scale(column, named.unit.as_deref(), read)
     }
 
     /// The names of the columns, with their units.
     fn described(&self, columns: &Columns) -> String {
-        let described = columns.all().map(|column| {
-            let name = self.header.text(column.place);
+        let described = columns.all().chain(&columns.set).map(|column| {
+            let name = self.section.header.text(column.place);
             let unit = column.unit.as_deref().filter(|unit| !name.contains(unit));
             unit.map_or_else(|| format!("`{name}`"), |unit| format!("`{name}` [{unit}]"))
         });
@@ -346,39 +353,48 @@ impl<'a> Block<'a> {
             ModulusKind::Shear => ("a modulus of tension or bending", "longitudinal", "shear"),
         };
         let message = format!("this column is {is}, and the {asked} modulus was asked for");
-        Diagnostic::at(&self.header.place(place), message).help(format!(
+        Diagnostic::at(&self.section.header.place(place), message).help(format!(
             "write modulus = \"{word}\", or give --modulus {word}"
         ))
     }
 
     fn absent(&self, what: &str, example: &str) -> Diagnostic {
-        let place = self.header.place(0);
+        let place = self.section.header.place(0);
         Diagnostic::at(&place, format!("the table has no column of {what}"))
             .help(format!("name it with its unit, such as `{example}`"))
     }
 }
 
-/// A row without the empty cell that some instruments put before it.
-pub(super) fn aligned(row: Line<'_>, columns: usize) -> Line<'_> {
-    let is_shifted = row.len() == columns + 1 && row.text(0).is_empty();
-    row.without(usize::from(is_shifted))
+/// What a row gives.
+enum Row {
+    Measured(Measured),
+    /// A number is missing.
+    Missing,
+    /// An instrument wrote a value that is not positive.
+    Noise,
+    Refused(Diagnostic),
 }
 
-/// A unit that is one.
-fn given(unit: &str) -> Option<&str> {
-    Some(units::bare(unit)).filter(|unit| !["", "-"].contains(unit))
+impl Column {
+    /// The error of a modulus (Pa).
+    fn absolute(&self, error: f64, modulus_pa: f64) -> f64 {
+        match self.unit.as_deref().is_some_and(columns::is_relative) {
+            true => error * modulus_pa,
+            false => error,
+        }
+    }
 }
 
 /// The columns that are read.
-struct Columns {
-    frequency: Column,
+pub(super) struct Columns {
+    pub(super) frequency: Column,
     /// What the moduli come from.
-    pair: [Column; 2],
-    moduli: Moduli,
-    temperature: Option<Column>,
-    set: Option<Column>,
+    pub(super) pair: [Column; 2],
+    pub(super) moduli: Moduli,
+    pub(super) temperature: Option<Column>,
+    pub(super) set: Option<Column>,
     /// Of storage and loss modulus; used where both are there.
-    errors: [Option<Column>; 2],
+    pub(super) errors: [Option<Column>; 2],
 }
 
 impl Columns {
@@ -387,10 +403,19 @@ impl Columns {
         storage.as_ref().zip(loss.as_ref()).map(|(a, b)| [a, b])
     }
 
+    /// Those of numbers: frequency, what the moduli come from, temperature, errors.
     fn all(&self) -> impl Iterator<Item = &Column> {
         let needed = std::iter::once(&self.frequency).chain(&self.pair);
-        let others = self.temperature.iter().chain(&self.set);
         let errors = self.both_errors().into_iter().flatten();
-        needed.chain(others).chain(errors)
+        needed.chain(&self.temperature).chain(errors)
+    }
+
+    fn asked(&self) -> Vec<Asked> {
+        let asked = |column: &Column| Asked {
+            place: column.place,
+            scale: column.scale,
+            what: column.role.what(),
+        };
+        self.all().map(asked).collect()
     }
 }

@@ -1,11 +1,12 @@
-//! What the columns of dynamic tests are called, in the languages of instruments, and what they hold; [`super::units`] has their units.
+//! What the columns of dynamic tests are called, in the languages of instruments, and what they hold.
 //!
 //! A name stands alone (`E'`), with its unit (`E' [MPa]`, `G'' (Pa)`, `Frequency / Hz`, `f/Hz`, `Loss modulus, MPa`), or joined to it
 //! by `_` (`storage_modulus_mpa`, `omega_rad_s`, `temperature_c`). Case and dots do not matter, but that `T` is a temperature and `t`
 //! a time, `f` a frequency and `F` a force.
 
-use super::units::{bare, scale, suffix};
-use crate::input::data_file::split_unit;
+use std::f64::consts::TAU;
+
+use crate::input::data_file::units::{self, Scale, bare, split_unit, unit_of_suffix};
 use crate::material::ModulusKind;
 use crate::quantity::Dimension;
 
@@ -69,230 +70,64 @@ impl Role {
     }
 }
 
-/// Names without units, blanks for `_` and `-`, without dots, in lower case.
-const NAMES: [(Role, &[&str]); 9] = [
+/// Names without units, blanks for `_` and `-`, without dots, in lower case; commas separate them.
+const NAMES: [(Role, &str); 9] = [
     (
         Role::Frequency,
-        &[
-            "f",
-            "freq",
-            "frequency",
-            "test frequency",
-            "test freq",
-            "oscillation frequency",
-            "dynamic frequency",
-            "dyn freq",
-            "dynamic freq",
-            "ref freq",
-            "reference frequency",
-            "drive frequency",
-            "drive freq",
-            "excitation frequency",
-            "loading frequency",
-            "frequency average",
-            "frequenz",
-            "messfrequenz",
-            "prüffrequenz",
-            "fréquence",
-            "frecuencia",
-            "frequenza",
-            "frequência",
-            "频率",
-            "頻率",
-            "周波数",
-            "주파수",
-        ],
+        "f, freq, frequency, test frequency, test freq, oscillation frequency, dynamic frequency, dyn freq, dynamic freq, ref \
+         freq, reference frequency, drive frequency, drive freq, excitation frequency, loading frequency, frequency average, \
+         frequenz, messfrequenz, prüffrequenz, fréquence, frecuencia, frequenza, frequência, 频率, 頻率, 周波数, 주파수",
     ),
     (
         Role::AngularFrequency,
-        &[
-            "angular frequency",
-            "ang frequency",
-            "ang freq",
-            "angular freq",
-            "angfreq",
-            "circular frequency",
-            "radian frequency",
-            "omega",
-            "w",
-            "ω",
-            "kreisfrequenz",
-            "winkelfrequenz",
-            "pulsation",
-            "fréquence angulaire",
-            "frecuencia angular",
-            "frequenza angolare",
-            "frequência angular",
-            "角频率",
-            "角頻率",
-            "角周波数",
-            "각주파수",
-        ],
+        "angular frequency, ang frequency, ang freq, angular freq, angfreq, circular frequency, radian frequency, omega, w, \
+         ω, kreisfrequenz, winkelfrequenz, pulsation, fréquence angulaire, frecuencia angular, frequenza angolare, frequência \
+         angular, 角频率, 角頻率, 角周波数, 각주파수",
     ),
     (
         Role::Storage,
-        &[
-            "e'",
-            "g'",
-            "m'",
-            "e stor",
-            "g stor",
-            "e storage",
-            "g storage",
-            "estor",
-            "gstor",
-            "e prime",
-            "g prime",
-            "ep",
-            "gp",
-            "e real",
-            "g real",
-            "storage modulus",
-            "storage mod",
-            "modulus storage",
-            "speichermodul",
-            "module de conservation",
-            "module de stockage",
-            "module élastique",
-            "módulo de almacenamiento",
-            "modulo conservativo",
-            "módulo de armazenamento",
-            "储能模量",
-            "儲能模數",
-            "貯蔵弾性率",
-            "저장 탄성률",
-            "저장탄성률",
-        ],
+        "e', g', m', e stor, g stor, e storage, g storage, estor, gstor, e prime, g prime, ep, gp, e real, g real, storage \
+         modulus, storage mod, modulus storage, speichermodul, module de conservation, module de stockage, module élastique, \
+         módulo de almacenamiento, modulo conservativo, módulo de armazenamento, 储能模量, 儲能模數, 貯蔵弾性率, 저장 탄성률, 저장탄성률",
     ),
     (
         Role::Loss,
-        &[
-            "e''",
-            "g''",
-            "m''",
-            "e loss",
-            "g loss",
-            "eloss",
-            "gloss",
-            "e double prime",
-            "g double prime",
-            "epp",
-            "gpp",
-            "e imag",
-            "g imag",
-            "loss modulus",
-            "loss mod",
-            "modulus loss",
-            "verlustmodul",
-            "module de perte",
-            "module visqueux",
-            "módulo de pérdida",
-            "modulo dissipativo",
-            "módulo de perda",
-            "损耗模量",
-            "損耗模數",
-            "損失弾性率",
-            "손실 탄성률",
-            "손실탄성률",
-        ],
+        "e'', g'', m'', e loss, g loss, eloss, gloss, e double prime, g double prime, epp, gpp, e imag, g imag, loss modulus, \
+         loss mod, modulus loss, verlustmodul, module de perte, module visqueux, módulo de pérdida, modulo dissipativo, \
+         módulo de perda, 损耗模量, 損耗模數, 損失弾性率, 손실 탄성률, 손실탄성률",
     ),
     (
         Role::Complex,
-        &[
-            "|e*|",
-            "|g*|",
-            "e*",
-            "g*",
-            "complex modulus",
-            "komplexer modul",
-            "module complexe",
-            "dynamic modulus",
-            "复数模量",
-        ],
+        "|e*|, |g*|, e*, g*, complex modulus, komplexer modul, module complexe, dynamic modulus, 复数模量",
     ),
     (
         Role::TanDelta,
-        &[
-            "tan delta",
-            "tan(delta)",
-            "tandelta",
-            "tan d",
-            "tan(d)",
-            "tan δ",
-            "tan(δ)",
-            "tanδ",
-            "loss tangent",
-            "loss factor",
-            "damping factor",
-            "verlustfaktor",
-            "dämpfungsfaktor",
-            "facteur d'amortissement",
-            "facteur de perte",
-            "factor de pérdida",
-            "factor de amortiguamiento",
-            "损耗因子",
-        ],
+        "tan delta, tan(delta), tandelta, tan d, tan(d), tan δ, tan(δ), tanδ, loss tangent, loss factor, damping factor, \
+         verlustfaktor, dämpfungsfaktor, facteur d'amortissement, facteur de perte, factor de pérdida, factor de \
+         amortiguamiento, 损耗因子",
     ),
     (
         Role::PhaseAngle,
-        &[
-            "phase angle",
-            "phase",
-            "delta",
-            "δ",
-            "phasenwinkel",
-            "phasenverschiebungswinkel",
-            "angle de phase",
-            "相位角",
-        ],
+        "phase angle, phase, delta, δ, phasenwinkel, phasenverschiebungswinkel, angle de phase, 相位角",
     ),
     (
         Role::Temperature,
-        &[
-            "temperature",
-            "temp",
-            "t",
-            "sample temperature",
-            "sample temp",
-            "temperature sample",
-            "temperatur",
-            "probentemperatur",
-            "ts",
-            "ϑ",
-            "θ",
-            "température",
-            "temperatura",
-            "温度",
-            "溫度",
-            "온도",
-        ],
+        "temperature, temp, t, sample temperature, sample temp, temperature sample, temperatur, probentemperatur, ts, ϑ, θ, \
+         température, temperatura, 温度, 溫度, 온도",
     ),
     (
         Role::Set,
-        &[
-            "set",
-            "set number",
-            "isotherm",
-            "isotherm number",
-            "set no",
-            "sweep number",
-        ],
+        "set, set number, isotherm, isotherm number, set no, sweep number",
     ),
 ];
 
 /// Words that make the name of a modulus one of its errors.
-const ERROR_WORDS: [&str; 10] = [
-    "error",
-    "err",
-    "std",
-    "stderr",
-    "sd",
-    "sigma",
-    "uncertainty",
-    "fehler",
-    "unc",
-    "stddev",
-];
+const ERROR_WORDS: &str = "error, err, std, stderr, sd, sigma, uncertainty, fehler, unc, stddev";
+
+/// Whether a list has a name.
+fn lists(names: &str, name: &str) -> bool {
+    names.split(", ").any(|known| known == name)
+}
 
 /// A column that was recognised.
 #[derive(Debug, Clone, PartialEq)]
@@ -355,6 +190,57 @@ fn named(name: &str, unit: Option<&str>) -> Option<Named> {
     })
 }
 
+/// The unit that the words behind a name are.
+fn suffix(words: &str, role: Role) -> Option<String> {
+    let known = match (role, words) {
+        (Role::Temperature, "c" | "°c" | "degc" | "deg c" | "celsius") => Some("°C"),
+        (Role::Temperature, "k" | "kelvin") => Some("K"),
+        (
+            Role::Frequency | Role::AngularFrequency,
+            "rad s" | "rads" | "rad per s" | "rad per sec" | "rad/s" | "rad s 1",
+        ) => Some("rad/s"),
+        (Role::StorageError | Role::LossError, "percent" | "pct" | "%" | "rel percent") => {
+            Some("%")
+        }
+        (Role::PhaseAngle, "deg" | "degree" | "degrees" | "°") => Some("deg"),
+        _ => None,
+    };
+    match known {
+        Some(unit) => Some(unit.to_owned()),
+        None => unit_of_suffix(&words.replace(' ', "_"), role.dimension()?),
+    }
+}
+
+/// What turns the numbers of a column into SI units, those of a relative error into shares of the modulus.
+///
+/// # Errors
+/// The unit is none of this column, or absent: what to write.
+pub(super) fn scale(role: Role, unit: Option<&str>) -> Result<Scale, String> {
+    let given = unit.map(bare).filter(|unit| !["", "-", "1"].contains(unit));
+    let Some(unit) = given else {
+        return match role.has_own_unit() {
+            true => Ok(Scale::ONE),
+            false => Err(format!("write its unit, such as [{}]", role.example_unit())),
+        };
+    };
+    match role {
+        Role::StorageError | Role::LossError if is_relative(unit) => Ok(Scale::times(0.01)),
+        Role::Frequency => units::scale(unit, Dimension::AngularFrequency).or_else(|_| {
+            let hertz = units::scale(unit, Dimension::Frequency)?;
+            Ok(Scale::times(TAU * hertz.factor))
+        }),
+        Role::AngularFrequency if units::spelt(unit) == "1/s" => Ok(Scale::ONE),
+        _ => role
+            .dimension()
+            .map_or(Ok(Scale::ONE), |dimension| units::scale(unit, dimension)),
+    }
+}
+
+/// Whether errors in this unit are shares of the modulus.
+pub(super) fn is_relative(unit: &str) -> bool {
+    bare(unit) == "%"
+}
+
 /// A name as the table of names has it.
 fn plain(name: &str) -> String {
     let primes = name.replace(['\u{2033}', '\u{201c}', '\u{201d}', '"'], "''");
@@ -366,7 +252,7 @@ fn plain(name: &str) -> String {
 }
 
 fn role(words: &str) -> Option<(Role, Option<ModulusKind>)> {
-    let is_error = |word: &str| ERROR_WORDS.contains(&word);
+    let is_error = |word: &str| lists(ERROR_WORDS, word);
     if words.split(' ').any(is_error) {
         let left: Vec<&str> = words
             .split(' ')
@@ -396,10 +282,10 @@ fn known(words: &str) -> Option<(Role, Option<ModulusKind>)> {
     let (kinds, neutral) = kind_of(words);
     NAMES.iter().find_map(|(role, names)| {
         let is_modulus = matches!(role, Role::Storage | Role::Loss | Role::Complex);
-        if names.contains(&words) {
+        if lists(names, words) {
             return Some((*role, kinds.filter(|_| is_modulus)));
         }
-        (is_modulus && names.contains(&neutral.as_str())).then_some((*role, kinds))
+        (is_modulus && lists(names, &neutral)).then_some((*role, kinds))
     })
 }
 

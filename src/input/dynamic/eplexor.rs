@@ -14,8 +14,9 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use calamine::{Data, DataRef, Reader, Xls, Xlsx};
 
-use super::{Reading, generic, steps, units};
+use super::{Reading, generic, steps};
 use crate::input::data_file::grid::Grid;
+use crate::input::data_file::units;
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Source};
 use crate::input::file_kind;
 use crate::quantity::celsius;

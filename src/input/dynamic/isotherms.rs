@@ -68,9 +68,10 @@ pub(super) fn split(
 
 fn ramp(block: &Block<'_>, points: &[Measured], inside: &[f64]) -> Diagnostic {
     let ends = [inside.first(), inside.last()].map(|end| celsius(end.copied().unwrap_or_default()));
-    let place = points
-        .first()
-        .map_or_else(|| block.grid.whole(), |measured| measured.place.clone());
+    let place = points.first().map_or_else(
+        || block.section.grid.whole(),
+        |measured| measured.place.clone(),
+    );
     let message = format!(
         "temperatures run from {} to {} without a gap: these are no isotherms",
         ends[0], ends[1]

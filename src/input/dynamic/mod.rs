@@ -30,7 +30,6 @@ mod steps;
 mod trios_csv;
 mod trios_lims;
 mod trios_text;
-mod units;
 
 #[cfg(feature = "cli")]
 pub(crate) use eplexor::silence_caught_panics;

@@ -8,15 +8,13 @@
 use std::sync::Arc;
 
 use super::Reading;
-use super::block::{Measured, Skipped};
-use super::columns::Role;
-use super::units::{self, Scale};
-use crate::input::data_file::grid::{Cell, Grid, Line, Numbers};
-use crate::input::diagnostic::{Diagnostic, Diagnostics, Problems, Source};
+use super::block::{Block, Column, Columns};
+use super::columns::{self, Role};
+use crate::input::data_file::grid::{Grid, Line};
+use crate::input::data_file::section::Section;
+use crate::input::data_file::units::{self, Scale};
+use crate::input::diagnostic::{Diagnostic, Diagnostics, Source};
 use crate::material::ModulusKind;
-use crate::material::dynamic::DynamicPoint;
-
-const ROLES: [Role; 3] = [Role::AngularFrequency, Role::Storage, Role::Loss];
 
 /// Why a text is taken for this format.
 pub(super) fn detect(source: &Arc<Source>) -> Option<String> {
@@ -57,41 +55,32 @@ pub(super) fn read(source: &Arc<Source>, reading: &mut Reading) -> Result<(), Di
         .help("write modulus = \"shear\", or give --modulus shear")
         .into());
     }
-    let temperature_k = temperature(&grid, reading)?;
-    let first = (1..grid.len())
-        .find(|line| is_row(&grid.line(*line)))
-        .unwrap_or(grid.len());
+    let is_row = |line: &usize| (0..3).all(|cell| grid.line(*line).is_number(cell));
+    let first = (1..grid.len()).find(is_row).unwrap_or(grid.len());
     let units = (1..first).find_map(|line| scales(&grid.line(line)));
     if units.is_none() {
         reading.note("no row of units: taken in rad/s and Pa");
     }
-    let scales = units.unwrap_or(ROLES.map(|_| Scale::ONE));
-    reading.note("columns read: the first three, as angular frequency, G' and G''");
-    let (problems, mut numbers, mut points) =
-        (Problems::new(), grid.numbers(first..grid.len()), Vec::new());
-    for line in (first..grid.len()).filter(|line| !grid.is_comment(*line)) {
-        let row = grid.line(line);
-        match row_values(&row, &mut numbers, &problems, scales) {
-            Ok([omega, storage, loss]) => points.push(Measured {
-                point: DynamicPoint {
-                    temperature_k,
-                    angular_frequency_rad_per_s: omega,
-                    storage_modulus_pa: storage,
-                    loss_modulus_pa: loss,
-                    errors_pa: None,
-                },
-                place: grid.place(line),
-                set: None,
-            }),
-            Err(Skipped::Missing) => reading.count(1, None),
-            Err(Skipped::Noise) => reading.count(0, Some((grid.place(line), 1))),
-            Err(Skipped::Bad) => {}
-        }
-    }
-    numbers.check(&problems);
-    reading.is_in_hertz = false;
-    reading.isotherms.push(problems.into_result(Some(points))?);
-    Ok(())
+    let mut block = Block::of(Section::without_names(&grid, first)).by_instrument();
+    block.temperature_k = temperature(&grid, reading)?;
+    let scales = units.unwrap_or([Scale::ONE; 3]);
+    let column = |place: usize, role| Column {
+        place,
+        role,
+        scale: scales[place],
+        unit: None,
+    };
+    let columns = Columns {
+        frequency: column(0, Role::AngularFrequency),
+        pair: [column(1, Role::Storage), column(2, Role::Loss)],
+        moduli: |storage, loss| (storage, loss),
+        temperature: None,
+        set: None,
+        errors: [None, None],
+    };
+    let described = "the first three, as angular frequency, G' and G''".to_owned();
+    let content = block.content(&columns, (described, Vec::new()))?;
+    reading.add_content(&block, content)
 }
 
 /// What a parameter is set to.
@@ -117,50 +106,14 @@ fn temperature(grid: &Grid, reading: &mut Reading) -> Result<Option<f64>, Diagno
     }
 }
 
-fn is_row(line: &Line<'_>) -> bool {
-    (0..3).all(|cell| line.is_number(cell))
-}
-
 /// The units of the first three columns, where a line holds units.
 fn scales(line: &Line<'_>) -> Option<[Scale; 3]> {
     let scale = |cell: usize, role| {
-        let unit = line.text(cell);
-        units::is_unit(unit)
-            .then(|| units::scale(role, Some(unit)).ok())
-            .flatten()
+        let unit = Some(line.text(cell)).filter(|unit| units::is_unit(unit))?;
+        columns::scale(role, Some(unit)).ok()
     };
-    Some([
-        scale(0, Role::Frequency)?,
-        scale(1, Role::Storage)?,
-        scale(2, Role::Loss)?,
-    ])
-}
-
-/// The values of a row.
-fn row_values(
-    row: &Line<'_>,
-    numbers: &mut Numbers<'_>,
-    problems: &Problems,
-    scales: [Scale; 3],
-) -> Result<[f64; 3], Skipped> {
-    let mut values = [0.0; 3];
-    for (cell, ((value, scale), role)) in values.iter_mut().zip(scales).zip(ROLES).enumerate() {
-        let what = role.what();
-        match numbers.read(row, cell) {
-            Cell::Number(number) if number > 0.0 => *value = scale.factor * number,
-            Cell::Number(_) => return Err(Skipped::Noise),
-            Cell::Missing => return Err(Skipped::Missing),
-            Cell::Bad(why) => {
-                let message = format!("a cell of the column of {what} must be a number");
-                problems
-                    .at(&row.place(cell), message)
-                    .because(why)
-                    .help("leave the row out");
-                return Err(Skipped::Bad);
-            }
-        }
-    }
-    Ok(values)
+    let [omega, storage] = [scale(0, Role::Frequency)?, scale(1, Role::Storage)?];
+    Some([omega, storage, scale(2, Role::Loss)?])
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@
 
 use std::sync::Arc;
 
-use super::block::{self, Block};
+use super::block::Block;
 use super::{Reading, steps};
 use crate::input::data_file::grid::Grid;
 use crate::input::diagnostic::{Diagnostics, Source};
@@ -68,7 +68,7 @@ fn is_header(grid: &Grid, line: usize) -> bool {
 
 fn interval<'a>(grid: &'a Grid, header: usize, next: usize, reading: &mut Reading) -> Block<'a> {
     let mut block = Block::new(grid, header, next).by_instrument();
-    block.units = Some(grid.line(header + 1));
+    block.section.units = Some(grid.line(header + 1));
     // Behind the rows stands the label of another part.
     let is_label = |line: &usize| {
         let first = grid.line(*line);
@@ -79,14 +79,14 @@ fn interval<'a>(grid: &'a Grid, header: usize, next: usize, reading: &mut Readin
     };
     let first = header + 2;
     let end = (first..next).find(is_label).unwrap_or(next);
-    block.rows = first.min(end)..end;
+    block.section.rows = first.min(end)..end;
     block.name = name(grid, header);
     block.temperature_k = block.name.as_deref().and_then(steps::temperature_in);
-    block.skipped = invalid(grid, &block);
-    if !block.skipped.is_empty() {
+    block.section.skipped = invalid(grid, &block);
+    if !block.section.skipped.is_empty() {
         reading.note(format!(
             "{} points passed over: their number says that they are invalid",
-            block.skipped.len()
+            block.section.skipped.len()
         ));
     }
     block
@@ -115,18 +115,27 @@ fn invalid(grid: &Grid, block: &Block<'_>) -> Vec<usize> {
         "no.",
     ];
     let place = block
+        .section
         .header
         .texts()
         .position(|text| names.contains(&text.to_lowercase().as_str()));
     let Some(place) = place else {
         return Vec::new();
     };
-    let is_valid =
-        |line: &usize| block::aligned(grid.line(*line), block.header.len()).is_number(place);
-    if !block.rows.clone().any(|line| is_valid(&line)) {
+    let is_valid = |line: &usize| {
+        grid.line(*line)
+            .aligned(block.section.header.len())
+            .is_number(place)
+    };
+    if !block.section.rows.clone().any(|line| is_valid(&line)) {
         return Vec::new();
     }
-    block.rows.clone().filter(|line| !is_valid(line)).collect()
+    block
+        .section
+        .rows
+        .clone()
+        .filter(|line| !is_valid(line))
+        .collect()
 }
 
 #[cfg(test)]

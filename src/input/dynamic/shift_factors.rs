@@ -4,8 +4,10 @@
 use std::path::Path;
 
 use super::columns::{self, Role};
-use super::units::{self, Scale};
-use crate::input::data_file::grid::{self, Cell, Grid, Line};
+use crate::input::data_file::Holes;
+use crate::input::data_file::grid::{self, Grid, Line};
+use crate::input::data_file::section::{Asked, Section};
+use crate::input::data_file::units::Scale;
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Problems};
 use crate::input::document::{cannot_read, read_limited};
 use crate::quantity::ZERO_CELSIUS_K;
@@ -42,7 +44,7 @@ pub fn shift_factors_from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<(f64, f6
     let (source, _) = grid::source(name, bytes)?;
     let found = Grid::every(&source).find_map(|grid| {
         let mut lines = 0..grid.len().min(50);
-        let (header, places) = lines.find_map(|line| Some((line, places(&grid.line(line))?)))?;
+        let (header, places) = lines.find_map(|line| Some((line, places(&grid.header(line))?)))?;
         Some((grid, header, places))
     });
     let Some((grid, header, places)) = found else {
@@ -55,67 +57,44 @@ pub fn shift_factors_from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<(f64, f6
         )
         .into());
     };
-    let (names, below) = (grid.line(header), grid.line(header + 1));
-    let temperature = places[0];
-    let has_units = !places.iter().any(|place| below.is_number(*place));
-    let above = columns::recognise(names.text(temperature)).and_then(|named| named.unit);
-    let below = if has_units {
-        below.text(temperature)
-    } else {
-        ""
-    };
-    let unit = above.as_deref().unwrap_or(below);
-    let scale = units::scale(Role::Temperature, Some(unit)).map_err(|why| {
-        Diagnostic::at(&names.place(temperature), "the temperatures have no unit").help(why)
+    let end = grid.len();
+    let mut section = Section::new(&grid, header, end, |place| places.contains(&place));
+    section.may_be_ragged = true;
+    let [temperature, factor] = places;
+    let named = columns::recognise(section.header.text(temperature));
+    let above = named.and_then(|named| named.unit);
+    let scale = section.scale((temperature, "temperatures"), above.as_deref(), |unit| {
+        columns::scale(Role::Temperature, unit)
     })?;
-    rows(&grid, header, usize::from(has_units), places, scale)
-}
-
-/// The pairs in the rows below the header and its units.
-fn rows(
-    grid: &Grid,
-    header: usize,
-    units: usize,
-    places: [usize; 2],
-    scale: Scale,
-) -> Result<Vec<(f64, f64)>, Diagnostics> {
-    let (names, problems) = (grid.line(header), Problems::new());
-    let mut numbers = grid.numbers(header + 1..grid.len());
-    let mut pairs = Vec::new();
-    for line in (header + 1 + units..grid.len()).filter(|line| !grid.is_comment(*line)) {
-        let row = grid.line(line);
-        let read = places.map(|cell| match numbers.read(&row, cell) {
-            Cell::Number(number) => Some(number),
-            Cell::Missing | Cell::Bad(_) => {
-                let message = format!(
-                    "a cell of the column `{}` must be a number",
-                    names.text(cell)
-                );
-                problems
-                    .at(&row.place(cell), message)
-                    .help("write it as `-1.5`, or leave the whole row out");
-                None
-            }
-        });
-        if let [Some(temperature), Some(log10_a_t)] = read {
-            let temperature_k = scale.zero + scale.factor * temperature;
-            if temperature_k <= 0.0 {
-                let message = format!("the temperature must be above {} °C", -ZERO_CELSIUS_K);
-                problems
-                    .at(&row.place(places[0]), message)
-                    .help("check the unit of the temperatures");
-            }
-            pairs.push((temperature_k, log10_a_t));
-        }
-    }
-    numbers.check(&problems);
-    if pairs.is_empty() && problems.is_empty() {
+    let asked = [(temperature, scale), (factor, Scale::ONE)].map(|(place, scale)| Asked {
+        place,
+        scale,
+        what: "",
+    });
+    let (problems, help) = (
+        Problems::new(),
+        "write it as `-1.5`, or leave the whole row out",
+    );
+    let table = section.read(&asked, Holes::Refused, help, &problems);
+    let pairs: Vec<(f64, f64)> = table
+        .values
+        .chunks_exact(2)
+        .map(|row| (row[0], row[1]))
+        .collect();
+    for (row, _) in pairs
+        .iter()
+        .enumerate()
+        .filter(|(_, (kelvin, _))| *kelvin <= 0.0)
+    {
+        let message = format!("the temperature must be above {} °C", -ZERO_CELSIUS_K);
         problems
-            .at(
-                &grid.place(header),
-                "the table of shift factors has no rows",
-            )
-            .help("give one row per temperature");
+            .at(&table.cell(row, 0), message)
+            .help("check the unit of the temperatures");
+    }
+    if pairs.is_empty() && problems.is_empty() {
+        let message = "the table of shift factors has no rows";
+        let report = problems.at(&grid.place(header), message);
+        report.help("give one row per temperature");
     }
     problems.into_result(Some(pairs))
 }

@@ -1,8 +1,9 @@
 //! Steps of a test, as TRIOS and RheoCompass export them: which of them are frequency sweeps, and what is said of the others.
 
+use super::Reading;
 use super::block::{self, Block, Measured};
-use super::{Reading, units};
 use crate::input::data_file::grid::Grid;
+use crate::input::data_file::units;
 use crate::input::diagnostic::{Diagnostic, Diagnostics};
 
 /// Frequencies closer than this are one.
@@ -34,7 +35,7 @@ pub(super) fn read(
             ));
             continue;
         }
-        if let Some(what) = block::lacking(&block::names(&step.header)) {
+        if let Some(what) = block::lacking(&block::names(&step.section.header)) {
             reading.note(format!("step `{name}` passed over: no column of {what}"));
             continue;
         }

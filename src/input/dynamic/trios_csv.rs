@@ -43,7 +43,7 @@ pub(super) fn read(source: &Arc<Source>, reading: &mut Reading) -> Result<(), Di
     let in_table = |grid: &Grid| {
         steps::bracketed(grid)
             .iter()
-            .any(|step| step.header.len() > 2)
+            .any(|step| step.section.header.len() > 2)
     };
     let by_semicolon = Grid::new(source, ';');
     let grid = match has_semicolons && (!has_commas || in_table(&by_semicolon)) {

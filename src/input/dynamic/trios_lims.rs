@@ -64,8 +64,8 @@ fn step<'a>(grid: &'a Grid, start: usize, reading: &mut Reading) -> Option<Block
         ));
     }
     let mut step = Block::new(grid, header, end).by_instrument();
-    step.units = labelled("Units").map(|line| grid.line(line));
-    step.rows = rows..last;
+    step.section.units = labelled("Units").map(|line| grid.line(line));
+    step.section.rows = rows..last;
     step.temperature_k = name.as_deref().and_then(steps::temperature_in);
     step.name = name;
     Some(step)
