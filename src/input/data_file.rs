@@ -17,6 +17,7 @@ mod numbers;
 pub(crate) mod section;
 mod text;
 pub(crate) mod units;
+pub(crate) mod workbook;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -43,14 +44,16 @@ pub(crate) struct Column {
     pub(crate) what: &'static str,
     /// Whether it may be without a unit, and is then in SI units.
     pub(crate) unit_may_be_absent: bool,
+    /// Whether the table may be without it.
+    pub(crate) is_optional: bool,
+    /// Whether of several of its names in one table the first in their order counts; else it must be there once.
+    pub(crate) first_name_counts: bool,
 }
 
 /// Times, of any table.
 pub(crate) const TIME: Column = Column {
-    names: &["time"],
-    dimension: Dimension::Time,
-    what: "times",
     unit_may_be_absent: true,
+    ..Column::new(&["time"], Dimension::Time, "times")
 };
 
 impl Column {
@@ -65,6 +68,24 @@ impl Column {
             dimension,
             what,
             unit_may_be_absent: false,
+            is_optional: false,
+            first_name_counts: false,
+        }
+    }
+
+    /// The same column of a table that may be without it.
+    pub(crate) const fn optional(self) -> Self {
+        Self {
+            is_optional: true,
+            ..self
+        }
+    }
+
+    /// The same column, of whose names in one table the first in their order counts.
+    pub(crate) const fn by_first_name(self) -> Self {
+        Self {
+            first_name_counts: true,
+            ..self
         }
     }
 
@@ -87,31 +108,35 @@ impl Column {
     }
 
     fn is_named(&self, cell: &str) -> bool {
-        self.unit_in(cell).is_some()
+        self.name_in(cell).is_some()
     }
 
-    /// Where the column stands in a table, and its unit.
-    fn asked(&self, section: &Section<'_>) -> Result<Asked, Diagnostic> {
+    /// Where the column stands in a table, and its unit; `None` where it is not there and need not be.
+    fn asked(&self, section: &Section<'_>) -> Result<Option<Asked>, Diagnostic> {
         let cells = section.header.texts().enumerate();
-        let mut found = cells.filter_map(|(place, cell)| Some((place, self.unit_in(cell)?)));
-        let (place, unit) = match (found.next(), found.next()) {
-            (Some(found), None) => found,
-            (None, _) => return Err(self.missing(section)),
-            (Some((first, _)), Some((second, _))) => {
-                return Err(section.twice([first, second], self.what));
+        let found = cells.filter_map(|(place, cell)| Some((place, self.name_in(cell)?)));
+        let mut found: Vec<(usize, (usize, Option<String>))> = found.collect();
+        if self.first_name_counts {
+            found.sort_by_key(|(_, (name, _))| *name);
+            let first = found.first().map(|(_, (name, _))| *name);
+            found.retain(|(_, (name, _))| Some(*name) == first);
+        }
+        let (place, unit) = match found.as_slice() {
+            [] if self.is_optional => return Ok(None),
+            [] => return Err(self.missing(section)),
+            [(place, (_, unit))] => (*place, unit.as_deref()),
+            [(first, _), (second, _), ..] => {
+                return Err(section.twice([*first, *second], self.what));
             }
         };
         let name = section.header.text(place);
-        let scale = section.scale((place, self.what), unit.as_deref(), |unit| match unit {
+        let scale = section.scale((place, self.what), unit, |unit| match unit {
             Some(unit) => units::scale(unit, self.dimension),
             None if self.unit_may_be_absent => Ok(Scale::ONE),
             None => Err(format!("write `{name} [{}]`", self.dimension.si_unit())),
         })?;
-        Ok(Asked {
-            place,
-            scale,
-            what: self.what,
-        })
+        let what = self.what;
+        Ok(Some(Asked { place, scale, what }))
     }
 
     fn missing(&self, section: &Section<'_>) -> Diagnostic {
@@ -136,25 +161,38 @@ impl Column {
         ))
     }
 
-    /// The unit that a cell of the header gives this column, if any; `None` where it names another column.
-    fn unit_in(&self, cell: &str) -> Option<Option<String>> {
+    /// Which of its names a cell of the header has, and the unit there, if any; `None` where it names another column.
+    fn name_in(&self, cell: &str) -> Option<(usize, Option<String>)> {
         let (name, unit) = split_unit(cell);
         let name = name.trim().replace([' ', '-'], "_");
-        self.names.iter().find_map(|known| {
+        self.names.iter().enumerate().find_map(|(which, known)| {
             let (head, rest) = name.split_at_checked(known.len())?;
             if !head.eq_ignore_ascii_case(known) {
                 return None;
             }
-            match (rest.strip_prefix('_'), unit) {
+            let unit = match (rest.strip_prefix('_'), unit) {
                 // `T (°C)` and `D (mm)` are symbols of something else, and so is `T` alone.
                 (None, _) if rest.is_empty() && known.len() == 1 && !self.is_symbol(head, unit) => {
-                    None
+                    return None;
                 }
-                (None, _) if rest.is_empty() => Some(unit.map(str::to_owned)),
-                (Some(suffix), None) => unit_of_suffix(suffix, self.dimension).map(Some),
-                _ => None,
-            }
+                (None, _) if rest.is_empty() => unit.map(str::to_owned),
+                (Some(suffix), None) => Some(unit_of_suffix(suffix, self.dimension)?),
+                _ => return None,
+            };
+            Some((which, unit))
         })
+    }
+}
+
+/// What messages call a file, and its bytes.
+///
+/// # Errors
+/// It cannot be read, or has more bytes than that.
+pub(super) fn contents(path: &Path, most: usize) -> Result<(String, Vec<u8>), Diagnostics> {
+    let name = path.display().to_string();
+    match read_limited(path, most) {
+        Ok(bytes) => Ok((name, bytes)),
+        Err(error) => Err(cannot_read(&name, &error).into()),
     }
 }
 
@@ -209,8 +247,7 @@ impl DataFile {
     /// # Errors
     /// It cannot be read, or [`DataFile::from_bytes`] refuses it.
     pub(crate) fn read(path: &Path) -> Result<Self, Diagnostics> {
-        let name = path.display().to_string();
-        let bytes = read_limited(path, MAX_BYTES).map_err(|error| cannot_read(&name, &error))?;
+        let (name, bytes) = contents(path, MAX_BYTES)?;
         Self::from_bytes(&name, &bytes)
     }
 
@@ -243,21 +280,6 @@ impl DataFile {
         named.map(str::to_owned).partition(is_wanted)
     }
 
-    /// Of each of these columns the first of its names that the header has, and that name alone; `None` where it has none.
-    pub(crate) fn first_named(&self, columns: &[Column]) -> Vec<Option<Column>> {
-        let grid = self.header(columns);
-        let header = grid.line(0);
-        let first = |column: &Column| {
-            let one_name = |place: usize| Column {
-                names: &column.names[place..=place],
-                ..*column
-            };
-            let mut names = (0..column.names.len()).map(one_name);
-            names.find(|named| header.texts().any(|cell| named.is_named(cell)))
-        };
-        columns.iter().map(first).collect()
-    }
-
     /// The columns asked for, in SI units. `without_number` says what to do about a cell that has none.
     ///
     /// # Errors
@@ -282,7 +304,7 @@ impl DataFile {
         let names = grid.line(0);
         let section = Section::new(&grid, 0, grid.len(), |place| is_wanted(names.text(place)));
         let asked = wanted.iter().map(|column| column.asked(&section));
-        let asked: Vec<Asked> = asked.collect::<Result<_, _>>()?;
+        let asked: Vec<Option<Asked>> = asked.collect::<Result<_, _>>()?;
         let problems = Problems::new();
         let table = section.read(&asked, holes, without_number, &problems);
         problems.into_result(Some(table))
@@ -304,12 +326,11 @@ impl DataFile {
         }
         let grid = Grid::of_table(&self.source, first.delimiter(), usize::MAX);
         let section = Section::without_names(&grid, 0);
-        let column = |place| Asked {
-            place,
-            scale: Scale::ONE,
-            what: "",
+        let column = |place| {
+            let (scale, what) = (Scale::ONE, "");
+            Some(Asked { place, scale, what })
         };
-        let asked: Vec<Asked> = (0..section.header.len()).map(column).collect();
+        let asked: Vec<Option<Asked>> = (0..section.header.len()).map(column).collect();
         let problems = Problems::new();
         let table = section.read(&asked, Holes::Refused, without_number, &problems);
         problems.into_result(Some(table))
@@ -396,19 +417,22 @@ mod tests {
             ("storage_modulus_s", None),
             ("modulus", None),
         ] {
-            let found = MODULUS.unit_in(cell);
-            let found = found.as_ref().map(|unit| unit.as_deref());
+            let found = MODULUS.name_in(cell);
+            let found = found.as_ref().map(|(_, unit)| unit.as_deref());
             assert_eq!(found, unit, "{cell}");
         }
         let compliance = Column::new(&["d"], Dimension::Compliance, "values");
         assert_eq!(compliance.name_in_si(), "d_per_pa");
         assert_eq!(
-            compliance.unit_in("D_per_GPa"),
-            Some(Some("1/GPa".to_owned()))
+            compliance.name_in("D_per_GPa"),
+            Some((0, Some("1/GPa".to_owned())))
         );
         let rate = Column::new(&["w"], Dimension::AngularFrequency, "frequencies");
         assert_eq!(rate.name_in_si(), "w_rad_per_s");
-        assert_eq!(rate.unit_in("w_rad_per_s"), Some(Some("rad/s".to_owned())));
+        assert_eq!(
+            rate.name_in("w_rad_per_s"),
+            Some((0, Some("rad/s".to_owned())))
+        );
     }
 
     #[test]

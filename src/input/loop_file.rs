@@ -3,9 +3,8 @@
 
 use std::path::Path;
 
-use super::data_file::{Column, DataFile, Holes, MAX_BYTES};
+use super::data_file::{Column, DataFile, Holes, MAX_BYTES, contents};
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Source};
-use super::document::{cannot_read, read_limited};
 use super::field_file::npy;
 use crate::measured::Signal;
 use crate::quantity::Dimension::{Force, Length, Time};
@@ -13,19 +12,19 @@ use crate::quantity::Dimension::{Force, Length, Time};
 /// Time, load, approach, contact radius. Where a file has several of the names of one, the first in this order counts.
 #[rustfmt::skip]
 const COLUMNS: [Column; 4] = [
-    Column::new(&["time", "test_time", "elapsed_time", "timestamp", "time_stamp", "t"], Time, "times"),
+    Column::new(&["time", "test_time", "elapsed_time", "timestamp", "time_stamp", "t"], Time, "times").by_first_name(),
     Column::new(
         &["load", "normal_load", "contact_load", "load_on_sample", "indent_act._load", "force", "normal_force", "fn", "fz", "w", "p"],
         Force, "loads",
-    ),
+    ).by_first_name(),
     Column::new(
         &[
             "approach", "depth", "indentation_depth", "penetration_depth", "indentation", "penetration", "indent_disp.",
             "displacement_into_surface", "displacement", "disp.", "disp", "delta", "h", "d",
         ],
         Length, "approaches",
-    ),
-    Column::new(&["contact_radius", "radius_of_contact"], Length, "contact radii"),
+    ).by_first_name(),
+    Column::new(&["contact_radius", "radius_of_contact"], Length, "contact radii").by_first_name().optional(),
 ];
 
 /// What to do about a cell that is no number and does not say that there is none.
@@ -41,8 +40,7 @@ const MATRIX: npy::Wanted = npy::Wanted {
 /// # Errors
 /// A file that cannot be read; what [`parse`] refuses.
 pub fn read(path: &Path) -> Result<Signal, Diagnostics> {
-    let name = path.display().to_string();
-    let bytes = read_limited(path, MAX_BYTES).map_err(|error| cannot_read(&name, &error))?;
+    let (name, bytes) = contents(path, MAX_BYTES)?;
     parse(&name, &bytes)
 }
 
@@ -55,18 +53,12 @@ pub fn parse(name: &str, bytes: &[u8]) -> Result<Signal, Diagnostics> {
         return of_matrix(name, bytes).map_err(Diagnostics::from);
     }
     let file = DataFile::from_bytes(name, bytes)?;
-    let named = file.first_named(&COLUMNS);
-    let has_radius = named.last().is_some_and(Option::is_some);
-    // Of a column that is not there, the first of its names is the one that is asked for.
-    let named = named.into_iter().zip(COLUMNS);
-    let wanted: Vec<Column> = named.map(|(named, any)| named.unwrap_or(any)).collect();
-    let wanted = &wanted[..if has_radius { 4 } else { 3 }];
-    let table = file.columns(wanted, Holes::Kept, NO_NUMBER)?;
+    let table = file.columns(&COLUMNS, Holes::Kept, NO_NUMBER)?;
     Ok(Signal {
         time_s: table.column(0),
         load_n: table.column(1),
         approach_m: table.column(2),
-        contact_radius_m: has_radius.then(|| table.column(3)),
+        contact_radius_m: table.has(3).then(|| table.column(3)),
     })
 }
 

@@ -36,11 +36,7 @@ pub(super) fn parse(
         ),
     };
     let file = DataFile::from_bytes(name, bytes)?;
-    let mut wanted = vec![TIME, value];
-    let has_errors = file.has_any(&[error]);
-    if has_errors {
-        wanted.push(error);
-    }
+    let wanted = [TIME, value, error.optional()];
     let without_number = "write a number, or leave the cell empty where nothing was measured";
     let table = file.columns(&wanted, Holes::PassedOver, without_number)?;
     if table.len() > MAX_ROWS {
@@ -51,7 +47,7 @@ pub(super) fn parse(
     let problems = Problems::new();
     let end_s = drive.duration_s();
     let (times, values) = (table.column(0), table.column(1));
-    let errors = has_errors.then(|| table.column(2));
+    let errors = table.has(2).then(|| table.column(2));
     let mut readings = Vec::with_capacity(times.len());
     for (row, (time_s, value)) in times.iter().zip(values).enumerate() {
         if !(0.0..=end_s * (1.0 + AFTER)).contains(time_s) {

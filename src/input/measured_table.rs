@@ -28,6 +28,12 @@ struct Measured {
     standard_error: Column,
 }
 
+impl Measured {
+    fn columns(&self) -> [Column; 3] {
+        [self.value, self.error, self.standard_error]
+    }
+}
+
 /// A number under its names.
 macro_rules! measured {
     ($number:expr, $dimension:ident, $first:literal $(, $name:literal)*) => {
@@ -149,9 +155,7 @@ pub(super) fn parse(
     rows.refuse_another_drive(&data);
     let (read, _) = file.headings(&rows.wanted);
     // Errors of what is set aside are set aside with it.
-    let known = MEASURED
-        .iter()
-        .flat_map(|own| [own.value, own.error, own.standard_error]);
+    let known = MEASURED.iter().flat_map(Measured::columns);
     let known: Vec<Column> = rows.wanted.iter().copied().chain(known).collect();
     let (_, unread) = file.headings(&known);
     let columns = TableColumns {
@@ -219,30 +223,27 @@ fn quantities(
     (data, set_aside)
 }
 
-/// The columns that a table has: frequencies, mean and amplitude of the drive, quantities, and the errors of these. Beside them mean
-/// and amplitude of the drive.
+/// The columns that a table may have: frequencies, mean and amplitude of the drive, quantities, and the errors of these. Beside them
+/// mean and amplitude of the drive.
 fn wanted(
     file: &DataFile,
     control: Control,
     is_analysis: bool,
     data: &[&Measured],
 ) -> Result<(Vec<Column>, [Column; 2]), Diagnostic> {
-    let is_there = |column: &Column| file.has_any(&[*column]);
     let lacks = |what: &str| Diagnostic::at(&file.first_line(), what);
     let mut wanted = vec![ANGULAR, HERTZ];
-    wanted.retain(is_there);
-    if wanted.is_empty() {
+    if !file.has_any(&wanted) {
         return Err(lacks("no column of frequencies")
             .help("name it `angular_frequency_rad_per_s` or `frequency_hz`"));
     }
     let of_drive = drive_columns(control, is_analysis);
-    if of_drive.iter().all(is_there) {
+    if of_drive.iter().all(|column| file.has_any(&[*column])) {
         wanted.extend(of_drive);
     }
     if is_analysis {
         let of_drive = prescribed(control);
-        let errors = [of_drive.error, of_drive.standard_error];
-        wanted.extend(errors.into_iter().filter(is_there));
+        wanted.extend([of_drive.error, of_drive.standard_error]);
     }
     if data.is_empty() {
         let names = MEASURED
@@ -256,11 +257,8 @@ fn wanted(
             ))
             .help(format!("give at least one of {names}")));
     }
-    let all = data
-        .iter()
-        .flat_map(|own| [own.value, own.error, own.standard_error]);
-    wanted.extend(all.filter(is_there));
-    Ok((wanted, of_drive))
+    wanted.extend(data.iter().flat_map(|own| own.columns()));
+    Ok((wanted.into_iter().map(Column::optional).collect(), of_drive))
 }
 
 /// The rows of a table.
@@ -284,13 +282,12 @@ impl Rows<'_> {
 
     /// The number in a cell, with its place; `None` where there is none.
     fn cell(&self, row: usize, column: &Column) -> Option<(f64, Location)> {
-        let place = self.place_of(column)?;
-        let value = self.table.values[row * self.table.width() + place];
-        (!value.is_nan()).then(|| (value, self.table.cell(row, place)))
+        let value = self.number(row, column)?;
+        Some((value, self.table.cell(row, self.place_of(column)?)))
     }
 
     fn number(&self, row: usize, column: &Column) -> Option<f64> {
-        self.cell(row, column).map(|(value, _)| value)
+        self.table.number(row, self.place_of(column)?)
     }
 
     /// What was measured in a row, with its standard deviations where they are known; `None` where a problem was reported.
@@ -414,11 +411,9 @@ fn drive_columns(control: Control, is_analysis: bool) -> [Column; 2] {
     };
     let whats = ["means of the drive", "amplitudes of the drive"];
     std::array::from_fn(|k| Column {
-        names: names[k],
-        dimension,
-        what: whats[k],
         // `sweep.csv` has them without, since the unit is that of the control.
         unit_may_be_absent: true,
+        ..Column::new(names[k], dimension, whats[k])
     })
 }
 

@@ -13,7 +13,7 @@ use crate::quantity::Dimension;
 /// The column of times.
 const TIMES: Column = Column {
     names: &["time", "test_time", "elapsed_time", "zeit", "t"],
-    ..TIME
+    ..TIME.by_first_name()
 };
 
 /// The column of a quantity: `E` is no shear modulus, and `G` is nothing else.
@@ -39,7 +39,7 @@ fn values_of(function: MaterialFunction, kind: ModulusKind) -> Column {
             Dimension::Stress,
         ),
     };
-    Column::new(names, dimension, "values")
+    Column::new(names, dimension, "values").by_first_name()
 }
 
 fn other(function: MaterialFunction) -> MaterialFunction {
@@ -88,16 +88,9 @@ fn tabulated(
             .help(help)
             .into());
     }
-    // Of several names of a column the first counts.
-    let named = file.first_named(&[TIMES, values]).into_iter();
-    let wanted = named
-        .zip([TIMES, values])
-        .map(|(named, any)| named.unwrap_or(any));
-    let table = file.columns(
-        &wanted.collect::<Vec<_>>(),
-        Holes::PassedOver,
-        "write it as `1.5e-9`, or leave the cell empty where the number is missing",
-    )?;
+    let without_number =
+        "write it as `1.5e-9`, or leave the cell empty where the number is missing";
+    let table = file.columns(&[TIMES, values], Holes::PassedOver, without_number)?;
     let (times_s, numbers) = (table.column(0), table.column(1));
     let made = Tabulated::new(function, kind, times_s, numbers);
     let made = made.map(|data| data.with_rows_passed_over(table.passed_over()));

@@ -89,7 +89,9 @@ impl Numbers {
         }
         if !self.is_decimal && cell.contains(',') {
             self.comma.get_or_insert_with(|| span.clone());
-            self.is_decimal = !is_like_thousands(cell);
+            // `1,234` could be an integer with its thousands apart.
+            let digits = cell.trim_start_matches(['+', '-']);
+            self.is_decimal = digits.starts_with('0') || !are_groups(digits, ',');
         }
     }
 
@@ -164,15 +166,4 @@ fn grouped_number(text: &str, sign: char) -> Cell {
         Ok(_) => Cell::Bad("not a finite number"),
         Err(_) => Cell::Bad("not a number"),
     }
-}
-
-/// Whether a number with a comma could be an integer with its thousands apart: `1,234`.
-fn is_like_thousands(number: &str) -> bool {
-    let number = number.trim_start_matches(['+', '-']);
-    number.split_once(',').is_some_and(|(before, after)| {
-        (1..=3).contains(&before.len())
-            && !before.starts_with('0')
-            && after.len() == 3
-            && after.bytes().all(|byte| byte.is_ascii_digit())
-    })
 }

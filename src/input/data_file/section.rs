@@ -132,9 +132,10 @@ impl<'a> Section<'a> {
 
     /// The rows in SI units, but for those with problems, which are reported: rows of the wrong number of cells, cells that are no
     /// numbers, commas that may separate decimals or thousands. `without_number` says what to do about a cell that has no number.
+    /// The numbers of a column that is not there are NaN.
     pub(crate) fn read(
         &self,
-        asked: &[Asked],
+        asked: &[Option<Asked>],
         holes: Holes,
         without_number: &str,
         problems: &Problems,
@@ -144,44 +145,44 @@ impl<'a> Section<'a> {
             source: Arc::clone(&self.grid.source),
             delimiter: self.grid.delimiter(),
             columns: self.header.len(),
-            places: asked.iter().map(|column| column.place).collect(),
+            places: asked
+                .iter()
+                .map(|column| Some(column.as_ref()?.place))
+                .collect(),
             values: Vec::new(),
             starts: Vec::new(),
             passed_over: Vec::new(),
         };
+        let mut number = |row: &Line<'_>, column: &Asked| {
+            let why = match numbers.read(row, column.place) {
+                Cell::Number(number) => return Some(column.scale.of(number)),
+                Cell::Missing if holes == Holes::Kept => return Some(f64::NAN),
+                Cell::Missing => numbers::why_missing(row.text(column.place)),
+                Cell::Bad(why) => why,
+            };
+            let message = format!("a cell of {} must be a number", self.called(column));
+            let report = problems.at(&row.place(column.place), message);
+            report.because(why).help(without_number);
+            None
+        };
         for line in self.lines() {
             let row = self.row(line);
+            let mut cells = table.places.iter().flatten().map(|place| row.text(*place));
             if self.is_ragged(&row) {
                 self.report_ragged(line, &row, problems);
-                continue;
-            }
-            let mut places = table.places.iter();
-            if holes == Holes::PassedOver && places.any(|place| numbers::is_hole(row.text(*place)))
-            {
+            } else if holes == Holes::PassedOver && cells.any(numbers::is_hole) {
                 table.passed_over.push(table.starts.len());
-                continue;
-            }
-            let before = table.values.len();
-            for column in asked {
-                let why = match numbers.read(&row, column.place) {
-                    Cell::Number(number) => {
-                        table.values.push(column.scale.of(number));
-                        continue;
-                    }
-                    Cell::Missing if holes == Holes::Kept => {
-                        table.values.push(f64::NAN);
-                        continue;
-                    }
-                    Cell::Missing => numbers::why_missing(row.text(column.place)),
-                    Cell::Bad(why) => why,
+            } else {
+                let before = table.values.len();
+                let read = |column: &Option<Asked>| match column {
+                    Some(column) => number(&row, column),
+                    None => Some(f64::NAN),
                 };
-                let message = format!("a cell of {} must be a number", self.called(column));
-                let report = problems.at(&row.place(column.place), message);
-                report.because(why).help(without_number);
-            }
-            match table.values.len() == before + asked.len() {
-                true => table.starts.push(self.grid.start(line)),
-                false => table.values.truncate(before),
+                table.values.extend(asked.iter().filter_map(read));
+                match table.values.len() == before + asked.len() {
+                    true => table.starts.push(self.grid.start(line)),
+                    false => table.values.truncate(before),
+                }
             }
         }
         numbers.check(&table.source, problems);
@@ -201,14 +202,14 @@ impl<'a> Section<'a> {
     }
 
     /// Thousands may be grouped where there are commas that do not separate cells.
-    fn numbers(&self, asked: &[Asked]) -> Numbers {
+    fn numbers(&self, asked: &[Option<Asked>]) -> Numbers {
         let text = self.grid.source.text();
         if !text.contains(',') || (self.grid.delimiter() == ',' && !text.contains('"')) {
             return Numbers::default();
         }
         let cells = self.lines().flat_map(|line| {
             let row = self.row(line);
-            let cells = asked.iter().map(move |column| row.text(column.place));
+            let cells = asked.iter().flatten().map(|column| row.text(column.place));
             cells.collect::<Vec<_>>()
         });
         Numbers::like(cells)
@@ -245,8 +246,8 @@ pub(crate) struct Table {
     delimiter: char,
     /// Cells of the header.
     columns: usize,
-    /// Place in a line of every column.
-    places: Vec<usize>,
+    /// Place in a line of every column that was asked for, where the table has it.
+    places: Vec<Option<usize>>,
     /// Row by row.
     pub(crate) values: Vec<f64>,
     /// Where the lines begin.
@@ -259,6 +260,17 @@ impl Table {
     /// Numbers in a row.
     pub(crate) fn width(&self) -> usize {
         self.places.len()
+    }
+
+    /// Whether the table has one of the columns, by its place among those asked for.
+    pub(crate) fn has(&self, which: usize) -> bool {
+        self.places.get(which).is_some_and(Option::is_some)
+    }
+
+    /// The number of a row in one of the columns; `None` where there is none.
+    pub(crate) fn number(&self, row: usize, which: usize) -> Option<f64> {
+        let value = self.values.get(row * self.width() + which).copied();
+        value.filter(|value| !value.is_nan())
     }
 
     /// Rows.
@@ -300,7 +312,7 @@ impl Table {
     /// The cell of a row in one of the columns.
     pub(crate) fn cell(&self, row: usize, which: usize) -> Location {
         match (self.starts.get(row), self.places.get(which)) {
-            (Some(_), Some(place)) => self.line(row).place(*place),
+            (Some(_), Some(Some(place))) => self.line(row).place(*place),
             _ => self.whole(),
         }
     }

@@ -4,6 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::columns::{self, Named, Role};
+use super::steps::temperature_in;
 use crate::input::data_file::Holes;
 use crate::input::data_file::grid::{Grid, Line};
 use crate::input::data_file::section::{Asked, Section, Table};
@@ -16,7 +17,7 @@ use crate::material::dynamic::DynamicPoint;
 pub(super) struct Block<'a> {
     pub(super) section: Section<'a>,
     /// What the file calls it.
-    pub(super) name: Option<String>,
+    pub(super) name: Option<&'a str>,
     /// Where the file says it of the block as a whole.
     pub(super) temperature_k: Option<f64>,
     /// Whether an instrument wrote it: of columns with the same meaning the first counts.
@@ -40,11 +41,10 @@ pub(super) struct Content {
     pub(super) missing: usize,
     /// Rows of an instrument in which a value is not positive: the first, and how many.
     pub(super) noise: Option<(Location, usize)>,
-    /// The columns read, with their units.
-    pub(super) columns: String,
     /// Whether the frequencies are in Hz.
     pub(super) is_in_hertz: bool,
-    pub(super) assumed: Vec<String>,
+    /// What was read and assumed.
+    pub(super) notes: Vec<String>,
 }
 
 /// A column that is read.
@@ -96,13 +96,17 @@ pub(super) fn is_dynamic(names: &[Option<Named>]) -> bool {
     lacking(names).is_none()
 }
 
-/// What these columns lack of dynamic data.
-pub(super) fn lacking(names: &[Option<Named>]) -> Option<&'static str> {
+/// What these columns lack of dynamic data, and names that it may have.
+pub(super) fn lacking(names: &[Option<Named>]) -> Option<[&'static str; 2]> {
     let has = |role| has(names, role);
     match () {
-        () if !has(Role::Frequency) && !has(Role::AngularFrequency) => Some("frequencies"),
-        () if !has(Role::Storage) && !has(Role::Complex) => Some("storage moduli"),
-        () if pair(names).is_none() => Some("loss moduli"),
+        () if !has(Role::Frequency) && !has(Role::AngularFrequency) => {
+            Some(["frequencies", "`frequency_hz` or `Frequency [Hz]`"])
+        }
+        () if !has(Role::Storage) && !has(Role::Complex) => {
+            Some(["storage moduli", "`storage_modulus_mpa` or `E' [MPa]`"])
+        }
+        () if pair(names).is_none() => Some(["loss moduli", "`E'' [MPa]` or `tan delta`"]),
         () => None,
     }
 }
@@ -132,24 +136,35 @@ impl<'a> Block<'a> {
         self
     }
 
+    /// As an instrument wrote it, of a step whose name may say its temperature.
+    pub(super) fn of_step(mut self, name: Option<&'a str>) -> Self {
+        self.name = name;
+        self.temperature_k = name.and_then(temperature_in);
+        self.by_instrument()
+    }
+
+    /// What messages call it.
+    pub(super) fn called(&self) -> &'a str {
+        self.name.unwrap_or("without a name")
+    }
+
     /// The rows in SI units.
     ///
     /// # Errors
     /// Columns that are absent, double, without a unit or of the other modulus; cells that are no positive numbers.
     pub(super) fn read(&self, kind: ModulusKind) -> Result<Content, Diagnostics> {
         let columns = self.columns(kind)?;
-        let described = (self.described(&columns), self.assumed(&columns));
-        self.content(&columns, described)
+        self.content(&columns, self.notes(&columns))
     }
 
-    /// The rows of these columns, of which something may be said.
+    /// The rows of these columns, of which these notes are made.
     ///
     /// # Errors
     /// Cells that are no positive numbers.
     pub(super) fn content(
         &self,
         columns: &Columns,
-        (described, assumed): (String, Vec<String>),
+        notes: Vec<String>,
     ) -> Result<Content, Diagnostics> {
         let help =
             "write it as `1.5e6`, write `---` where it is missing, or leave the whole row out";
@@ -161,9 +176,8 @@ impl<'a> Block<'a> {
             points: Vec::new(),
             missing: 0,
             noise: None,
-            columns: described,
             is_in_hertz: columns.frequency.scale.factor == TAU,
-            assumed,
+            notes,
         };
         for row in 0..table.len() {
             match self.point(columns, &table, row) {
@@ -191,40 +205,38 @@ impl<'a> Block<'a> {
 
     /// What a row gives.
     fn point(&self, columns: &Columns, table: &Table, row: usize) -> Row {
-        let values = table.values.iter().skip(row * table.width()).copied();
-        let values: Vec<f64> = values.take(table.width()).collect();
-        let (needed, others) = values.split_at(3);
-        for (which, (column, value)) in columns.all().zip(needed).enumerate() {
-            if *value <= 0.0 {
-                // A loss near zero is as often below it as above, in any table.
-                if self.by_instrument || which == 2 {
-                    return Row::Noise;
-                }
-                let message = format!("{} must be positive", column.role.what());
-                return Row::Refused(
-                    Diagnostic::at(&table.cell(row, which), message)
-                        .help("leave the row out: a measured value that is not positive is noise"),
-                );
+        let number = |which: usize| table.number(row, which);
+        for (which, column) in columns.needed().enumerate() {
+            if number(which).is_none_or(|number| number > 0.0) {
+                continue;
             }
+            // A loss near zero is as often below it as above, in any table.
+            if self.by_instrument || which == 2 {
+                return Row::Noise;
+            }
+            let message = format!("{} must be positive", column.role.what());
+            let help = "leave the row out: a measured value that is not positive is noise";
+            return Row::Refused(Diagnostic::at(&table.cell(row, which), message).help(help));
         }
-        let (temperature, errors) = others.split_at(columns.temperature.iter().count());
-        if needed.iter().chain(temperature).any(|value| value.is_nan()) {
+        let (temperature_k, place) = (number(3), table.row(row));
+        let (Some(omega), Some(first), Some(second)) = (number(0), number(1), number(2)) else {
+            return Row::Missing;
+        };
+        if table.has(3) && temperature_k.is_none() {
             return Row::Missing;
         }
-        let (storage_modulus_pa, loss_modulus_pa) = (columns.moduli)(needed[1], needed[2]);
-        let of_errors = columns.both_errors().zip(<[f64; 2]>::try_from(errors).ok());
-        let errors_pa = of_errors.map(|([a, b], [storage, loss])| {
-            let storage = a.absolute(storage, storage_modulus_pa);
-            (storage, b.absolute(loss, loss_modulus_pa))
-        });
-        let point = DynamicPoint {
-            temperature_k: temperature.first().copied().or(self.temperature_k),
-            angular_frequency_rad_per_s: needed[0],
-            storage_modulus_pa,
-            loss_modulus_pa,
-            errors_pa: errors_pa.filter(|(storage, loss)| *storage > 0.0 && *loss > 0.0),
+        let moduli = (columns.moduli)(first, second);
+        let error = |which: usize, modulus_pa: f64| {
+            let column = columns.errors[which].as_ref()?;
+            Some(column.absolute(number(4 + which)?, modulus_pa)).filter(|error| *error > 0.0)
         };
-        let place = table.row(row);
+        let point = DynamicPoint {
+            temperature_k: temperature_k.or(self.temperature_k),
+            angular_frequency_rad_per_s: omega,
+            storage_modulus_pa: moduli.0,
+            loss_modulus_pa: moduli.1,
+            errors_pa: error(0, moduli.0).zip(error(1, moduli.1)),
+        };
         // Moduli of a very large or very small number may leave what a double holds, and temperatures fall below zero.
         if let Some((what, value)) = point.not_positive() {
             let message = format!("{what} must be positive, and is {value:e} in SI units");
@@ -232,44 +244,36 @@ impl<'a> Block<'a> {
             return Row::Refused(Diagnostic::at(&place, message).help(help));
         }
         let set = columns.set.as_ref();
-        Row::Measured(Measured {
-            point,
-            place,
-            set: set.map(|column| table.line(row).text(column.place).to_owned()),
-        })
+        let set = set.map(|column| table.line(row).text(column.place).to_owned());
+        Row::Measured(Measured { point, place, set })
     }
 
     fn columns(&self, kind: ModulusKind) -> Result<Columns, Diagnostic> {
         let names = names(&self.section.header);
+        if let Some([what, example]) = lacking(&names) {
+            let message = format!("the table has no column of {what}");
+            return Err(Diagnostic::at(&self.section.header.place(0), message)
+                .help(format!("name it with its unit, such as {example}")));
+        }
         let find = |role| self.find(&names, role, kind);
-        let angular = find(Role::AngularFrequency)?;
-        let frequency = match angular {
-            Some(angular) => angular,
-            None => find(Role::Frequency)?
-                .ok_or_else(|| self.absent("frequencies", "frequency_hz` or `Frequency [Hz]"))?,
-        };
-        let pair = match pair(&names) {
-            Some((a, b, moduli)) => find(*a)?.zip(find(*b)?).map(|both| (both, *moduli)),
-            None => None,
-        };
-        let Some(((first, second), moduli)) = pair else {
-            return Err(match has(&names, Role::Storage) {
-                true => self.absent("loss moduli", "E'' [MPa]` or `tan delta"),
-                false => self.absent("storage moduli", "storage_modulus_mpa` or `E' [MPa]"),
-            });
-        };
+        let needed = |role| find(role)?.ok_or_else(|| self.other_modulus(0, kind));
+        let (first, second, moduli) = *pair(&names).unwrap_or(&PAIRS[0]);
         let errors = [find(Role::StorageError)?, find(Role::LossError)?];
-        let temperature = match self.is_master {
-            true => None,
-            false => find(Role::Temperature)?,
-        };
+        let has_one_error = errors.iter().flatten().count() == 1;
         Ok(Columns {
-            frequency,
-            pair: [first, second],
+            frequency: match find(Role::AngularFrequency)? {
+                Some(angular) => angular,
+                None => needed(Role::Frequency)?,
+            },
+            pair: [needed(first)?, needed(second)?],
             moduli,
-            temperature,
+            temperature: match self.is_master {
+                true => None,
+                false => find(Role::Temperature)?,
+            },
             set: find(Role::Set)?,
-            errors,
+            errors: if has_one_error { [None, None] } else { errors },
+            has_one_error,
         })
     }
 
@@ -325,26 +329,25 @@ impl<'a> Block<'a> {
         self.section.scale(column, named.unit.as_deref(), read)
     }
 
-    /// The names of the columns, with their units.
-    fn described(&self, columns: &Columns) -> String {
-        let described = columns.all().chain(&columns.set).map(|column| {
+    /// The names of the columns, with their units, and what is assumed.
+    fn notes(&self, columns: &Columns) -> Vec<String> {
+        let others = columns.temperature.iter().chain(&columns.set);
+        let errors = columns.errors.iter().flatten();
+        let described = columns.needed().chain(others).chain(errors).map(|column| {
             let name = self.section.header.text(column.place);
             let unit = column.unit.as_deref().filter(|unit| !name.contains(unit));
             unit.map_or_else(|| format!("`{name}`"), |unit| format!("`{name}` [{unit}]"))
         });
-        described.collect::<Vec<_>>().join(", ")
-    }
-
-    fn assumed(&self, columns: &Columns) -> Vec<String> {
-        let mut assumed = Vec::new();
-        if let [Some(_), None] | [None, Some(_)] = columns.errors {
-            assumed.push("the errors of one modulus alone are not used".to_owned());
+        let described: Vec<String> = described.collect();
+        let mut notes = vec![format!("columns read: {}", described.join(", "))];
+        if columns.has_one_error {
+            notes.push("the errors of one modulus alone are not used".to_owned());
         }
         let frequency = &columns.frequency;
         if frequency.role == Role::AngularFrequency && frequency.unit.is_none() {
-            assumed.push("angular frequencies without a unit are taken in rad/s".to_owned());
+            notes.push("angular frequencies without a unit are taken in rad/s".to_owned());
         }
-        assumed
+        notes
     }
 
     fn other_modulus(&self, place: usize, asked: ModulusKind) -> Diagnostic {
@@ -356,12 +359,6 @@ impl<'a> Block<'a> {
         Diagnostic::at(&self.section.header.place(place), message).help(format!(
             "write modulus = \"{word}\", or give --modulus {word}"
         ))
-    }
-
-    fn absent(&self, what: &str, example: &str) -> Diagnostic {
-        let place = self.section.header.place(0);
-        Diagnostic::at(&place, format!("the table has no column of {what}"))
-            .help(format!("name it with its unit, such as `{example}`"))
     }
 }
 
@@ -393,29 +390,28 @@ pub(super) struct Columns {
     pub(super) moduli: Moduli,
     pub(super) temperature: Option<Column>,
     pub(super) set: Option<Column>,
-    /// Of storage and loss modulus; used where both are there.
+    /// Of storage and loss modulus; both or none.
     pub(super) errors: [Option<Column>; 2],
+    /// Whether the table has errors of one modulus alone, which are not used.
+    pub(super) has_one_error: bool,
 }
 
 impl Columns {
-    fn both_errors(&self) -> Option<[&Column; 2]> {
+    /// Frequency, and what the moduli come from.
+    fn needed(&self) -> impl Iterator<Item = &Column> {
+        std::iter::once(&self.frequency).chain(&self.pair)
+    }
+
+    /// Those of numbers: what is needed, temperature, errors.
+    fn asked(&self) -> Vec<Option<Asked>> {
         let [storage, loss] = &self.errors;
-        storage.as_ref().zip(loss.as_ref()).map(|(a, b)| [a, b])
-    }
-
-    /// Those of numbers: frequency, what the moduli come from, temperature, errors.
-    fn all(&self) -> impl Iterator<Item = &Column> {
-        let needed = std::iter::once(&self.frequency).chain(&self.pair);
-        let errors = self.both_errors().into_iter().flatten();
-        needed.chain(&self.temperature).chain(errors)
-    }
-
-    fn asked(&self) -> Vec<Asked> {
+        let others = [&self.temperature, storage, loss].map(Option::as_ref);
         let asked = |column: &Column| Asked {
             place: column.place,
             scale: column.scale,
             what: column.role.what(),
         };
-        self.all().map(asked).collect()
+        let all = self.needed().map(Some).chain(others);
+        all.map(|column| column.map(asked)).collect()
     }
 }

@@ -7,6 +7,7 @@
 //!
 //! After: tables that users publish beside papers, and those of mastercurves and RHEOS.
 
+use std::cmp::Reverse;
 use std::sync::Arc;
 
 use super::Reading;
@@ -48,39 +49,33 @@ pub(super) fn blocks(grid: &Grid, first: usize) -> Vec<Block<'_>> {
 
 /// The line that names most columns of dynamic data, cut by the delimiter that shows them.
 pub(super) fn header(source: &Arc<Source>) -> Option<(Grid, usize)> {
-    let mut best: Option<((usize, bool), Grid, usize)> = None;
-    for grid in Grid::every(source) {
-        // As many names as the rows further down have cells.
-        let fits = |line: usize| grid.header(line).len() == grid.line(line + 2).len();
-        let found = (0..grid.len().min(MOST_LINES_ABOVE)).find_map(|line| {
-            // A line of names with other delimiters is not one of names between blanks.
-            if grid.delimiter() == ' ' && grid.text(line).contains([',', ';']) {
-                return None;
-            }
+    let found = Grid::every(source).filter_map(|grid| {
+        // A line of names with other delimiters is not one of names between blanks.
+        let is_cut =
+            |line: &usize| grid.delimiter() != ' ' || !grid.text(*line).contains([',', ';']);
+        let mut lines = (0..grid.len().min(MOST_LINES_ABOVE)).filter(is_cut);
+        let (line, names) = lines.find_map(|line| {
             let names = block::names(&grid.header(line));
-            block::is_dynamic(&names).then(|| ((names.iter().flatten().count(), fits(line)), line))
-        });
-        if let Some((count, line)) = found
-            && best.as_ref().is_none_or(|(most, _, _)| count > *most)
-        {
-            best = Some((count, grid, line));
-        }
-    }
+            block::is_dynamic(&names).then_some((line, names))
+        })?;
+        // As many names as the rows further down have cells.
+        let fits = grid.header(line).len() == grid.line(line + 2).len();
+        Some(((names.iter().flatten().count(), fits), grid, line))
+    });
+    let best = found.min_by_key(|(score, _, _)| Reverse(*score));
     best.map(|(_, grid, line)| (grid, line))
 }
 
 /// Why a text is no table of dynamic data: by the line that comes closest.
 pub(super) fn no_header(source: &Arc<Source>) -> Diagnostic {
     let example = "`frequency_hz,storage_modulus_mpa,loss_modulus_mpa,temperature_c`";
-    let mut closest: Option<(usize, Grid, usize)> = None;
-    for grid in Grid::every(source) {
-        for line in 0..grid.len().min(MOST_LINES_ABOVE) {
-            let count = block::names(&grid.header(line)).iter().flatten().count();
-            if count > closest.as_ref().map_or(0, |(most, _, _)| *most) {
-                closest = Some((count, Grid::new(source, grid.delimiter()), line));
-            }
-        }
-    }
+    let found = Grid::every(source).filter_map(|grid| {
+        let known = |line: usize| block::names(&grid.header(line)).iter().flatten().count();
+        let lines = (0..grid.len().min(MOST_LINES_ABOVE)).map(|line| (known(line), line));
+        let (count, line) = lines.min_by_key(|(count, _)| Reverse(*count))?;
+        (count > 0).then_some((count, grid, line))
+    });
+    let closest = found.min_by_key(|(count, _, _)| Reverse(*count));
     let lower = source
         .text()
         .get(..2000)
@@ -90,7 +85,7 @@ pub(super) fn no_header(source: &Arc<Source>) -> Diagnostic {
     let problem = match closest {
         Some((_, grid, line)) => {
             let what = match block::lacking(&block::names(&grid.header(line))) {
-                Some(what) => format!("the table has no column of {what}"),
+                Some([what, _]) => format!("the table has no column of {what}"),
                 None => "no header of dynamic data".to_owned(),
             };
             Diagnostic::at(&grid.place(line), what)

@@ -1,7 +1,7 @@
 //! Files of instruments and tools to [`DynamicData`]: storage and loss modulus over frequency, isotherm by isotherm.
 //!
-//! The format is found from the content, or given. Each format is one file of this folder, which opens with its specification; what
-//! they have in common is in `columns` (names and units), `block` (rows of numbers) and `isotherms` (which rows belong together).
+//! The format is found from the content, or given: `formats` says by what each is known and where its tables stand. What they have in
+//! common is in `columns` (names and units), `block` (moduli of rows) and `isotherms` (which rows belong together).
 //! A number marked as missing takes its row out, which is counted. A loss that is not positive is noise, and takes its row out with a
 //! note; a storage modulus or frequency likewise in the file of an instrument, while in a table it is refused at its place.
 //!
@@ -19,30 +19,27 @@
 mod block;
 mod columns;
 mod eplexor;
+mod formats;
 mod generic;
-mod hysitron;
 mod isotherms;
-mod pyvisco;
 mod reptate;
 mod rheocompass;
 mod shift_factors;
 mod steps;
-mod trios_csv;
-mod trios_lims;
-mod trios_text;
 
 #[cfg(feature = "cli")]
-pub(crate) use eplexor::silence_caught_panics;
+pub(crate) use super::data_file::workbook::silence_caught_panics;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::data_file::grid;
+use super::data_file::workbook::is_workbook;
+use super::data_file::{self, grid};
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Source};
-use super::document::{cannot_read, read_limited};
 use crate::material::ModulusKind;
 use crate::material::dynamic::{DynamicData, DynamicDataError};
 use crate::quantity::{FrequencyUnit, celsius};
 use block::{Block, Content, Measured};
+use formats::Format;
 pub use shift_factors::{read_shift_factors, shift_factors_from_bytes};
 
 /// Largest file read, bytes: ten thousand points of a hundred columns of thirty characters each.
@@ -105,13 +102,9 @@ pub fn read(
     format: Option<DynamicFormat>,
     kind: ModulusKind,
 ) -> Result<DynamicFile, Diagnostics> {
-    let contents = files.iter().map(|path| {
-        let name = path.display().to_string();
-        match read_limited(path, MAX_BYTES) {
-            Ok(bytes) => Ok((name, bytes)),
-            Err(error) => Err(cannot_read(&name, &error)),
-        }
-    });
+    let contents = files
+        .iter()
+        .map(|path| data_file::contents(path, MAX_BYTES));
     from_files(&contents.collect::<Result<Vec<_>, _>>()?, format, kind)
 }
 
@@ -141,11 +134,9 @@ pub fn from_files(
     let mut reading = Reading::new(kind);
     let mut first = None;
     for (name, bytes) in files {
-        reading.prefix = if files.len() > 1 {
-            format!("{name}: ")
-        } else {
-            String::new()
-        };
+        if files.len() > 1 {
+            reading.prefix = format!("{name}: ");
+        }
         let found = one_file(name, bytes, format, &mut reading)?;
         first.get_or_insert(found);
     }
@@ -177,60 +168,28 @@ fn one_file(
     if name.to_lowercase().ends_with(".tri") {
         return Err(binary_trios(name).into());
     }
-    if format == Some(DynamicFormat::Eplexor) || (format.is_none() && eplexor::detect(bytes)) {
-        let reason = if format.is_some() {
-            "as asked for"
-        } else {
-            "a workbook"
-        };
-        reading.note(format!(
-            "format {}: {reason}",
-            DynamicFormat::Eplexor.name()
-        ));
+    if format == Some(DynamicFormat::Eplexor) || (format.is_none() && is_workbook(bytes)) {
+        let reason = format.map_or("a workbook", |_| "as asked for");
+        reading.note(format!("format eplexor: {reason}"));
         eplexor::read(name, bytes, reading)?;
         return Ok(DynamicFormat::Eplexor);
     }
     let source = text(name, bytes, reading)?;
-    let (format, reason) = match format {
-        Some(format) => (format, "as asked for".to_owned()),
-        None => detect(&source),
+    let is_it = |known: &Format| match format {
+        Some(format) => (known.format == format).then(|| "as asked for".to_owned()),
+        None => (known.mark)(&source),
     };
-    reading.note(format!("format {}: {reason}", format.name()));
-    let known = TEXTS.into_iter().find(|(known, _, _)| *known == format);
-    known.map_or(generic::read as Read, |(_, _, read)| read)(&source, reading)?;
-    Ok(format)
+    let mut known = formats::OF_TEXTS.iter();
+    let found = known.find_map(|known| Some((*known, is_it(known)?)));
+    let (known, reason) = found.unwrap_or((&formats::NAMED_COLUMNS, String::new()));
+    reading.note(format!("format {}: {reason}", known.format.name()));
+    (known.read)(&source, reading)?;
+    Ok(known.format)
 }
-
-/// Why a text is taken for a format.
-type Detect = fn(&Arc<Source>) -> Option<String>;
-type Read = fn(&Arc<Source>, &mut Reading) -> Result<(), Diagnostics>;
-
-/// Formats of texts in the order in which they are tried.
-const TEXTS: [(DynamicFormat, Detect, Read); 7] = [
-    (
-        DynamicFormat::TriosLims,
-        trios_lims::detect,
-        trios_lims::read,
-    ),
-    (
-        DynamicFormat::TriosText,
-        trios_text::detect,
-        trios_text::read,
-    ),
-    (DynamicFormat::TriosCsv, trios_csv::detect, trios_csv::read),
-    (DynamicFormat::Reptate, reptate::detect, reptate::read),
-    (DynamicFormat::Pyvisco, pyvisco::detect, pyvisco::read),
-    (DynamicFormat::Hysitron, hysitron::detect, hysitron::read),
-    (
-        DynamicFormat::RheoCompass,
-        rheocompass::detect,
-        rheocompass::read,
-    ),
-];
 
 /// The text of a file, unless it is known to hold none that can be read.
 fn text(name: &str, bytes: &[u8], reading: &mut Reading) -> Result<Arc<Source>, Diagnostics> {
-    if eplexor::detect(bytes) {
+    if is_workbook(bytes) {
         return Err(
             Diagnostic::new(format!("`{name}` is a workbook, and a text was asked for"))
                 .help("leave the format out, to have it found, or write \"eplexor\"")
@@ -260,14 +219,6 @@ fn text(name: &str, bytes: &[u8], reading: &mut Reading) -> Result<Arc<Source>, 
 fn binary_trios(name: &str) -> Diagnostic {
     Diagnostic::new(format!("`{name}` is binary, and its moduli cannot be read"))
         .help("export it as text or CSV; of a `.tri` file, in TRIOS: File, Export, as CSV, as text or to LIMS")
-}
-
-/// The format of a text, and why.
-fn detect(source: &Arc<Source>) -> (DynamicFormat, String) {
-    let found = TEXTS
-        .into_iter()
-        .find_map(|(format, detect, _)| Some((format, detect(source)?)));
-    found.unwrap_or((DynamicFormat::Generic, "named columns".to_owned()))
 }
 
 fn within_limit(name: &str, bytes: &[u8]) -> Result<(), Diagnostic> {
@@ -308,6 +259,12 @@ impl Reading {
         }
     }
 
+    /// Says how many rows were passed over, and why.
+    fn note_rows(&mut self, count: usize, why: &str) {
+        let s = if count == 1 { "" } else { "s" };
+        self.note(format!("{count} row{s} passed over: {why}"));
+    }
+
     /// Says something of the file, once.
     fn note(&mut self, text: impl Into<String>) {
         let note = format!("{}{}", self.prefix, text.into());
@@ -324,23 +281,17 @@ impl Reading {
 
     /// Adds the isotherms of a block that was read.
     fn add_content(&mut self, block: &Block<'_>, content: Content) -> Result<(), Diagnostics> {
-        self.note(format!("columns read: {}", content.columns));
-        for assumed in content.assumed {
-            self.note(assumed);
+        for note in content.notes {
+            self.note(note);
         }
         self.is_in_hertz &= content.is_in_hertz;
-        self.count(content.missing, content.noise);
+        self.missing += content.missing;
+        if let Some((first, count)) = content.noise {
+            self.noise.get_or_insert((first, 0)).1 += count;
+        }
         self.isotherms
             .extend(isotherms::split(block, content.points)?);
         Ok(())
-    }
-
-    /// Counts rows passed over.
-    fn count(&mut self, missing: usize, noise: Option<(Location, usize)>) {
-        self.missing += missing;
-        if let Some((first, count)) = noise {
-            self.noise.get_or_insert((first, 0)).1 += count;
-        }
     }
 
     fn finish(
@@ -349,18 +300,11 @@ impl Reading {
     ) -> Result<(DynamicData, Vec<String>), Diagnostics> {
         self.prefix.clear();
         if self.missing > 0 {
-            let rows = if self.missing == 1 { "row" } else { "rows" };
-            self.note(format!(
-                "{} {rows} passed over: a number is empty or marked as missing",
-                self.missing
-            ));
+            self.note_rows(self.missing, "a number is empty or marked as missing");
         }
         if let Some((first, count)) = self.noise.take() {
-            let rows = if count == 1 { "row" } else { "rows" };
-            self.note(format!(
-                "{count} {rows} passed over: a value is not positive, which is noise (first in {})",
-                first.line()
-            ));
+            let why = "a value is not positive, which is noise";
+            self.note_rows(count, &format!("{why} (first in {})", first.line()));
         }
         let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
         let whole = Source::file(names.join("`, `"), "");

@@ -17,7 +17,7 @@ use crate::input::diagnostic::{Diagnostic, Diagnostics, Source};
 use crate::material::ModulusKind;
 
 /// Why a text is taken for this format.
-pub(super) fn detect(source: &Arc<Source>) -> Option<String> {
+pub(super) fn mark(source: &Arc<Source>) -> Option<String> {
     let grid = Grid::new(source, ' ');
     let line = grid.text(0);
     let parts = || {
@@ -39,7 +39,7 @@ pub(super) fn detect(source: &Arc<Source>) -> Option<String> {
 /// The longitudinal modulus was asked for, a temperature or a cell that is no number, a value that is not positive.
 pub(super) fn read(source: &Arc<Source>, reading: &mut Reading) -> Result<(), Diagnostics> {
     let grid = Grid::new(source, ' ');
-    if detect(source).is_none() {
+    if mark(source).is_none() {
         return Err(Diagnostic::at(
             &grid.place(0),
             "not a file of RepTate: the first line holds no parameters",
@@ -77,9 +77,10 @@ pub(super) fn read(source: &Arc<Source>, reading: &mut Reading) -> Result<(), Di
         temperature: None,
         set: None,
         errors: [None, None],
+        has_one_error: false,
     };
-    let described = "the first three, as angular frequency, G' and G''".to_owned();
-    let content = block.content(&columns, (described, Vec::new()))?;
+    let note = "columns read: the first three, as angular frequency, G' and G''".to_owned();
+    let content = block.content(&columns, vec![note])?;
     reading.add_content(&block, content)
 }
 
@@ -114,75 +115,4 @@ fn scales(line: &Line<'_>) -> Option<[Scale; 3]> {
     };
     let [omega, storage] = [scale(0, Role::Frequency)?, scale(1, Role::Storage)?];
     Some([omega, storage, scale(2, Role::Loss)?])
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::input::dynamic::DynamicFormat;
-    use crate::input::dynamic::tests::{assert_points, read_bytes, read_text};
-    use crate::material::ModulusKind;
-
-    const OSC: &str = "T=-10;Mw=94.9;chem=PI;label=PI88k;PDI=1.03;\nFreq\tG'\tG\"\tTemp\tStrain\tTorque\tTemp\nrad/s\tPa\tPa\t°C\t%\tN-m\t°C\n\
-        \t 100\t 3.4801E5\t 70871\t -9.99\t 0.9\t1\t1\n  10   2E5 5E4 -10.1 0.9 1 1\n1\t1E5\t-2E4\n0.1\t1E4\t2E3\n";
-
-    #[test]
-    fn the_first_three_columns_and_the_temperature_of_the_head_are_read() {
-        let expected = [
-            [263.15, 0.1, 1e4, 2e3],
-            [263.15, 10.0, 2e5, 5e4],
-            [263.15, 100.0, 348_010.0, 70_871.0],
-        ];
-        let latin: Vec<u8> = OSC.chars().map(|c| c as u8).collect();
-        for bytes in [OSC.as_bytes(), &latin] {
-            let file = read_bytes(bytes, ModulusKind::Shear).unwrap();
-            assert_eq!(file.format, DynamicFormat::Reptate);
-            assert_points(&file, &expected);
-            assert!(
-                file.notes
-                    .iter()
-                    .any(|note| note.contains("1 row passed over")),
-                "{:?}",
-                file.notes
-            );
-        }
-        let tts = "C1=8.8;T = -35 ;isof=true;Mw=1131;\n1e-3 100 1000\n1 2e4 3e4\n1e3\t5e5\t1e5\n";
-        let file = read_text(tts, ModulusKind::Shear).unwrap();
-        assert_points(
-            &file,
-            &[
-                [238.15, 1e-3, 100.0, 1000.0],
-                [238.15, 1.0, 2e4, 3e4],
-                [238.15, 1e3, 5e5, 1e5],
-            ],
-        );
-        assert!(
-            file.notes
-                .iter()
-                .any(|note| note.contains("no row of units")),
-            "{:?}",
-            file.notes
-        );
-        let kilopascal = OSC.replace("\tPa\tPa\t", "\tkPa\tkPa\t");
-        let file = read_text(&kilopascal, ModulusKind::Shear).unwrap();
-        assert_eq!(file.data.isotherms()[0].points[0].storage_modulus_pa, 1e7);
-    }
-
-    #[test]
-    fn what_cannot_be_read_is_refused_at_its_place() {
-        assert!(
-            read_text(OSC, ModulusKind::Longitudinal)
-                .unwrap_err()
-                .contains("--modulus shear")
-        );
-        let refused = read_text(&OSC.replace("T=-10", "T=cold"), ModulusKind::Shear).unwrap_err();
-        assert!(refused.contains("`T=cold` is no temperature"), "{refused}");
-        let refused =
-            read_text(&OSC.replace("10   2E5", "10   x"), ModulusKind::Shear).unwrap_err();
-        assert!(
-            refused.contains("dma.csv:5:8") && refused.contains("storage moduli must be a number"),
-            "{refused}"
-        );
-        let refused = read_text("T=1;\n", ModulusKind::Shear).unwrap_err();
-        assert!(refused.contains("at least 3 points"), "{refused}");
-    }
 }

@@ -4,12 +4,11 @@
 use std::path::Path;
 
 use super::columns::{self, Role};
-use crate::input::data_file::Holes;
 use crate::input::data_file::grid::{self, Grid, Line};
 use crate::input::data_file::section::{Asked, Section};
 use crate::input::data_file::units::Scale;
+use crate::input::data_file::{self, Holes};
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Problems};
-use crate::input::document::{cannot_read, read_limited};
 use crate::quantity::ZERO_CELSIUS_K;
 
 /// Names of the shift factors, in lower case.
@@ -30,8 +29,7 @@ const NAMES: [&str; 9] = [
 /// # Errors
 /// The file cannot be read, or [`shift_factors_from_bytes`] refuses it.
 pub fn read_shift_factors(path: &Path) -> Result<Vec<(f64, f64)>, Diagnostics> {
-    let name = path.display().to_string();
-    let bytes = read_limited(path, super::MAX_BYTES).map_err(|error| cannot_read(&name, &error))?;
+    let (name, bytes) = data_file::contents(path, super::MAX_BYTES)?;
     shift_factors_from_bytes(&name, &bytes)
 }
 
@@ -66,10 +64,9 @@ pub fn shift_factors_from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<(f64, f6
     let scale = section.scale((temperature, "temperatures"), above.as_deref(), |unit| {
         columns::scale(Role::Temperature, unit)
     })?;
-    let asked = [(temperature, scale), (factor, Scale::ONE)].map(|(place, scale)| Asked {
-        place,
-        scale,
-        what: "",
+    let asked = [(temperature, scale), (factor, Scale::ONE)].map(|(place, scale)| {
+        let what = "";
+        Some(Asked { place, scale, what })
     });
     let (problems, help) = (
         Problems::new(),

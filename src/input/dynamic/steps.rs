@@ -9,9 +9,6 @@ use crate::input::diagnostic::{Diagnostic, Diagnostics};
 /// Frequencies closer than this are one.
 const SAME_FREQUENCY: f64 = 1.001;
 
-/// What to do where a file is not of the format that was asked for.
-pub(super) const LEAVE_OUT: &str = "leave the format out, to have it found";
-
 /// Reads the steps that hold dynamic data. What an instrument's software computed from others, and what varies strain, time or
 /// temperature at one frequency where other steps vary the frequency, is passed over.
 ///
@@ -28,14 +25,14 @@ pub(super) fn read(
     }
     let (mut sweeps, mut others) = (Vec::new(), Vec::new());
     for step in steps {
-        let name = step.name.as_deref().unwrap_or("without a name");
+        let name = step.called();
         if is_derived(name) {
             reading.note(format!(
                 "step `{name}` passed over: computed from the others"
             ));
             continue;
         }
-        if let Some(what) = block::lacking(&block::names(&step.section.header)) {
+        if let Some([what, _]) = block::lacking(&block::names(&step.section.header)) {
             reading.note(format!("step `{name}` passed over: no column of {what}"));
             continue;
         }
@@ -88,39 +85,69 @@ pub(super) fn temperature_in(name: &str) -> Option<f64> {
     units::kelvin(before.trim_end().rsplit(['(', ' ', '@', '=', '_']).next()?)
 }
 
+/// Whether a line opens a step.
+pub(super) fn is_step(line: &str) -> bool {
+    line.eq_ignore_ascii_case("[step]")
+}
+
+/// The text of a line that has only one cell.
+pub(super) fn cell(line: &str) -> &str {
+    line.trim_matches([',', '\t', ' ', '"', ';', '\r'])
+}
+
 /// Steps that open with a line `[step]`: perhaps a name, then names, perhaps units, rows; each ends at the next line in brackets.
 pub(super) fn bracketed(grid: &Grid) -> Vec<Block<'_>> {
-    let is_mark = |line: &usize| is_bracketed(grid.text(*line));
-    let is_step = |line: &usize| {
-        grid.text(*line)
-            .trim_matches([',', '\t', ' ', '"'])
-            .eq_ignore_ascii_case("[step]")
+    let is_mark = |line: &usize| is_bracketed(cell(grid.text(*line)));
+    let is_header = |line: &usize| {
+        let cells = grid.line(*line);
+        cells.len() > 1 && block::names(&cells).iter().any(Option::is_some)
     };
-    let mut steps = Vec::new();
-    for start in (0..grid.len()).filter(is_step) {
+    let step = |start: usize| {
         let end = (start + 1..grid.len()).find(is_mark).unwrap_or(grid.len());
-        let header = (start + 1..end.min(start + 5)).find(|line| {
-            let cells = grid.line(*line);
-            let known = block::names(&cells).iter().flatten().count();
-            known > 0 && cells.len() > 1
-        });
-        let last = header.unwrap_or(start + 2);
-        let name = (start + 1 < last && start + 1 < end).then(|| {
-            grid.text(start + 1)
-                .trim_matches([',', '\t', ' ', '"'])
-                .to_owned()
-        });
-        let mut step = Block::new(grid, header.unwrap_or(start + 1), end).by_instrument();
-        step.temperature_k = name.as_deref().and_then(temperature_in);
-        step.name = name;
-        steps.push(step);
-    }
-    steps
+        let header = (start + 1..end.min(start + 5)).find(is_header);
+        let has_name = start + 1 < header.unwrap_or(start + 2) && start + 1 < end;
+        let name = has_name.then(|| cell(grid.text(start + 1)));
+        Block::new(grid, header.unwrap_or(start + 1), end).of_step(name)
+    };
+    let starts = (0..grid.len()).filter(|line| is_step(cell(grid.text(*line))));
+    starts.map(step).collect()
 }
 
 fn is_bracketed(line: &str) -> bool {
-    let line = line.trim_matches([',', '\t', ' ', '"', ';']);
     line.starts_with('[') && line.ends_with(']') && !line[1..].contains('[')
+}
+
+/// Steps that open with a line `[Step]`, whose lines have labels: `Step name TAB Frequency sweep (150.0 °C)`, `Number of points TAB 17`,
+/// `Variables TAB ...`, `Units TAB ...`, rows `Data point TAB ...`.
+pub(super) fn labelled<'a>(grid: &'a Grid, reading: &mut Reading) -> Vec<Block<'a>> {
+    let starts = (0..grid.len()).filter(|line| is_step(grid.text(*line).trim()));
+    starts
+        .filter_map(|start| labelled_step(grid, start, reading))
+        .collect()
+}
+
+fn labelled_step<'a>(grid: &'a Grid, start: usize, reading: &mut Reading) -> Option<Block<'a>> {
+    let mut below = start + 1..grid.len();
+    let end = below.find(|line| grid.text(*line).starts_with('['));
+    let end = end.unwrap_or(grid.len());
+    let has = |line: usize, label: &str| grid.line(line).text(0).eq_ignore_ascii_case(label);
+    let find = |label: &str| (start + 1..end).find(|line| has(*line, label));
+    let text = |label: &str| Some(grid.line(find(label)?).text(1));
+    let mut step = Block::new(grid, find("Variables")?, end).of_step(text("Step name"));
+    let rows = find("Data point").unwrap_or(end);
+    let last = (rows..end).find(|line| !has(*line, "Data point"));
+    step.section.rows = rows..last.unwrap_or(end);
+    step.section.units = find("Units").map(|line| grid.line(line));
+    let (announced, there) = (text("Number of points"), step.section.rows.len());
+    if let Some(announced) = announced.and_then(|count| count.parse::<usize>().ok())
+        && announced != there
+    {
+        reading.note(format!(
+            "step `{}`: {announced} points are announced, and {there} are there",
+            step.called()
+        ));
+    }
+    Some(step)
 }
 
 #[cfg(test)]

@@ -1,5 +1,13 @@
 //! Dynamic data in every dialect of a plain table, and what is refused.
 
+mod hysitron;
+mod pyvisco;
+mod reptate;
+mod rheocompass;
+mod trios_csv;
+mod trios_lims;
+mod trios_text;
+
 use super::*;
 use crate::input::diagnostic::Styling;
 use crate::material::dynamic::DynamicPoint;

@@ -122,22 +122,12 @@ pub(in crate::input) fn matrix(
 
 /// Header and data.
 fn split(bytes: &[u8]) -> Option<(&str, &[u8])> {
-    let version = *bytes.get(MAGIC.len())?;
-    let after = MAGIC.len() + 2;
-    let (length, start) = if version == 1 {
-        let length = bytes.get(after..after + 2)?;
-        (
-            usize::from(u16::from_le_bytes(length.try_into().ok()?)),
-            after + 2,
-        )
-    } else {
-        let length = bytes.get(after..after + 4)?;
-        let length = u32::from_le_bytes(length.try_into().ok()?);
-        (usize::try_from(length).ok()?, after + 4)
-    };
-    let end = start.checked_add(length)?;
-    let header = std::str::from_utf8(bytes.get(start..end)?).ok()?;
-    Some((header, bytes.get(end..)?))
+    let width = if *bytes.get(MAGIC.len())? == 1 { 2 } else { 4 };
+    let (length, rest) = bytes.get(MAGIC.len() + 2..)?.split_at_checked(width)?;
+    let digits = length.iter().rev();
+    let length = digits.fold(0, |above, byte| (above << 8) + usize::from(*byte));
+    let (header, data) = rest.split_at_checked(length)?;
+    Some((std::str::from_utf8(header).ok()?, data))
 }
 
 /// The text of one entry of the dictionary, up to the comma that ends it; commas in brackets are part of it.
@@ -158,17 +148,12 @@ fn entry<'a>(header: &'a str, key: &str) -> Option<&'a str> {
 
 /// (rows, columns) of a Python tuple of two lengths.
 fn two_lengths(shape: &str) -> Option<(usize, usize)> {
-    let inside = shape.strip_prefix('(')?.strip_suffix(')')?;
-    let lengths: Option<Vec<usize>> = inside
-        .split(',')
-        .map(str::trim)
-        .filter(|length| !length.is_empty())
-        .map(|length| length.parse().ok())
-        .collect();
-    match lengths?.as_slice() {
-        [rows, columns] => Some((*rows, *columns)),
-        _ => None,
-    }
+    let (rows, columns) = shape
+        .strip_prefix('(')?
+        .strip_suffix(')')?
+        .split_once(',')?;
+    let columns = columns.trim_end_matches([',', ' ']);
+    Some((rows.trim().parse().ok()?, columns.trim().parse().ok()?))
 }
 
 #[cfg(test)]
