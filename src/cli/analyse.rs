@@ -25,7 +25,7 @@ use crate::report::figure::press::Files;
 use crate::report::measured::{
     self, ANALYSIS, Analysis, Computed, MeasuredRow, columns, ordered, text,
 };
-use crate::report::words::wrapped_line;
+use crate::report::text::Text;
 use crate::report::{figure, machine, page};
 use crate::sweep::record::Status;
 use crate::sweep::search::run;
@@ -281,21 +281,19 @@ fn finish(
     })
 }
 
-fn printed(folder: &Path, rows: &[MeasuredRow]) -> String {
-    let mut printed = String::new();
+fn printed(folder: &Path, rows: &[MeasuredRow]) -> Text {
+    let mut printed = Text::default();
     if let [row] = rows
         && let Some(measured) = &row.measured
     {
-        for line in text::record(measured) {
-            printed.push_str(&wrapped_line(&line));
-        }
-        printed.push('\n');
+        printed.append(text::record(measured).into_iter().collect::<Text>());
+        printed.blank();
     }
-    let (table, moduli, findings) = (text::table(rows), text::moduli(rows), text::findings(rows));
-    format!(
-        "{printed}{table}{moduli}{findings}\nResults in {}\n",
-        folder.display()
-    )
+    printed.append(text::table(rows));
+    printed.append_apart(text::moduli(rows));
+    printed.append(text::findings(rows));
+    printed.append(format!("\nResults in {}", folder.display()));
+    printed
 }
 
 /// Writes everything.

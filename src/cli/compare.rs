@@ -90,11 +90,11 @@ pub(super) fn run(flags: &CompareFlags, format: OutputFormat) -> Result<Ended, F
     let mut text = comparison.text();
     if let Some(target) = &target {
         let left_out = write(target, &comparison, &tolerances, [&baseline, &new])?;
-        text.extend(left_out.iter().map(|reason| format!("{reason}\n")));
+        text.append(left_out.join("\n"));
     }
-    text.push_str(&format!("\n{}\n", comparison.verdict()));
+    text.append(format!("\n{}", comparison.verdict()));
     if let Some(out) = &flags.out {
-        text.push_str(&format!("\nComparison in {}\n", out.display()));
+        text.append(format!("\nComparison in {}", out.display()));
     }
     let found = || Ok(json::comparison(&comparison));
     tell(format, flags.quiet, found, || text)?;

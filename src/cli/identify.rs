@@ -15,6 +15,7 @@ use crate::input::identify_file;
 use crate::report::caption::Setting;
 use crate::report::figure::press::Files;
 use crate::report::identify::{IdentifyReport, summary};
+use crate::report::text::Text;
 use crate::report::{figure, page};
 use crate::sweep::plan::resolved;
 use crate::sweep::search::run;
@@ -108,8 +109,11 @@ pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, 
         }
         OutputFormat::Text if flags.quiet => Ok(Ended::Done),
         OutputFormat::Text => {
-            let (title, text, unknowns) = (&plan.title, report.text(), report.unknowns());
-            print(&format!("{title}\n\n{text}\n{unknowns}"))?;
+            let mut text = Text::from(format!("{}\n\n", plan.title));
+            text.append(report.text());
+            text.blank();
+            text.append(report.unknowns());
+            print(&text)?;
             print_place("Material and figures", target.folder, format)
         }
     }
@@ -128,7 +132,8 @@ fn refused(file: &Path, error: &IdentifyError) -> Failure {
 
 /// The material block of a sweep file, every number exact, with where it comes from.
 fn block(report: &IdentifyReport<'_>) -> Result<String, Failure> {
-    let text = format!("{}\n{}", report.plan.title, report.text());
+    let mut text = Text::from(report.plan.title.as_str());
+    text.append(report.text());
     let material = report
         .plan
         .material_of(report.found)

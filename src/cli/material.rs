@@ -17,7 +17,7 @@ use crate::report::figure::{
     press::{Files, Press},
 };
 use crate::report::page::{self, Pictures, material::About};
-use crate::report::words::{USUAL, wrapped};
+use crate::report::text::Text;
 use crate::report::{self, ReportError, material::MaterialReport};
 use crate::sweep::plan::figures::FigurePlan;
 use crate::sweep::plan::resolved;
@@ -41,16 +41,16 @@ fn list(format: OutputFormat) -> Result<Ended, Failure> {
     if format == OutputFormat::Json {
         return json::print(&serde_json::json!({ "materials": library::entries() }));
     }
-    let mut text = String::new();
+    let mut text = Text::default();
     for entry in library::entries() {
-        text.push_str(&format!("{}    {}\n", entry.name, entry.title));
-        text.push_str(&about(entry));
+        text.line(format!("{}    {}", entry.name, entry.title));
+        text.append(about(entry));
     }
     print(&text)
 }
 
 fn show(flags: &ShowFlags, format: OutputFormat) -> Result<Ended, Failure> {
-    let (material, head, reads) = load(&flags.material)?;
+    let (material, (title, head), reads) = load(&flags.material)?;
     let target = flags.out.as_deref().map(|folder| Target {
         folder,
         kind: Kind::Material,
@@ -62,8 +62,10 @@ fn show(flags: &ShowFlags, format: OutputFormat) -> Result<Ended, Failure> {
     match format {
         OutputFormat::Json => json::print(&json::material(&material)?)?,
         OutputFormat::Text => {
-            let body = report.text().map_err(Failure::input)?;
-            print(&format!("{head}{body}"))?
+            let mut text = Text::from(format!("{title}\n"));
+            text.append(head.clone());
+            text.append(report.text().map_err(Failure::input)?);
+            print(&text)?
         }
     };
     let Some(target) = target else {
@@ -75,8 +77,7 @@ fn show(flags: &ShowFlags, format: OutputFormat) -> Result<Ended, Failure> {
     draw(&files, &figures, &setting, |pictures, figure| {
         let about = About {
             title: material.name().unwrap_or("Material"),
-            // The first line is the title, which stands above.
-            text: head.split_once('\n').map_or("", |(_, rest)| rest),
+            text: &head.to_string(),
             block: &resolved::material_text(&material),
             pictures,
             figure,
@@ -123,15 +124,18 @@ pub(super) fn print_place(
 ) -> Result<Ended, Failure> {
     match format {
         OutputFormat::Json => Ok(Ended::Done),
-        OutputFormat::Text => print(&format!("\n{what} in {}\n", folder.display())),
+        OutputFormat::Text => print(&format!("\n{what} in {}", folder.display()).into()),
     }
 }
 
-/// A material by name or from a file, the lines that introduce it, and the files that were read.
-pub(super) fn load(name: &str) -> Result<(Material, String, Vec<PathBuf>), Failure> {
+/// A material, its title with what is to be said of it, and the files that were read.
+type Loaded = (Material, (String, Text), Vec<PathBuf>);
+
+/// A material by name or from a file.
+pub(super) fn load(name: &str) -> Result<Loaded, Failure> {
     if let Some(entry) = library::find(name) {
         let material = entry.material().map_err(Failure::run)?;
-        let head = format!("{}\n{}", entry.title, about(entry));
+        let head = (entry.title.to_owned(), about(entry));
         return Ok((material, head, Vec::new()));
     }
     let path = Path::new(name);
@@ -148,21 +152,24 @@ pub(super) fn load(name: &str) -> Result<(Material, String, Vec<PathBuf>), Failu
     let mut root = document.root(&problems);
     let material = material_block::read(&mut root, DirectSum::Fitted);
     let material = problems.into_result(material)?.value;
-    let title = material.name().unwrap_or("Material").to_owned();
-    let fit = report::fit::fitted(&material).unwrap_or_default();
-    let model = report::fit::approximation(&material);
-    let head = format!("{title} (from {name})\n{fit}{model}");
-    Ok((material, head, document.files()))
+    let title = format!("{} (from {name})", material.name().unwrap_or("Material"));
+    let mut head = report::fit::fitted(&material).unwrap_or_default();
+    head.append(report::fit::approximation(&material));
+    Ok((material, (title, head), document.files()))
 }
 
 /// What the library says of a material, set in by four.
-fn about(entry: &library::LibraryEntry) -> String {
-    let source = format!("Source: {}", entry.source);
-    let indented = |text: &str| wrapped(text, USUAL, "    ", "    ");
-    indented(entry.notes) + &indented(&source)
+fn about(entry: &library::LibraryEntry) -> Text {
+    let mut text = Text::default();
+    text.indented(entry.notes, "    ", "    ");
+    text.indented(format!("Source: {}", entry.source), "    ", "    ");
+    text
 }
 
 /// Lines as comments of a material block.
-pub(super) fn commented(text: &str) -> String {
-    text.lines().map(|line| format!("# {line}\n")).collect()
+pub(super) fn commented(text: &Text) -> String {
+    text.to_string()
+        .lines()
+        .map(|line| format!("# {line}\n"))
+        .collect()
 }

@@ -9,7 +9,7 @@ use serde_json::json;
 use super::arguments::{ExportFlags, OutputFormat};
 use super::{Ended, Failure, json, material, print, write_out};
 use crate::material::export::{self, Export, Program};
-use crate::report::words::{USUAL, wrapped};
+use crate::report::text::Text;
 use crate::sweep::store::write_atomically;
 
 /// Runs the command.
@@ -31,12 +31,11 @@ pub(super) fn run(flags: &ExportFlags, format: OutputFormat) -> Result<Ended, Fa
             "highest_angular_frequency_rad_per_s": export.band_rad_per_s.1,
             "remarks": export.remarks,
         })),
-        (OutputFormat::Text, Some(file)) => print(&format!(
-            "{}: {}\n{}",
-            program.title(),
-            file.display(),
-            unwritten(program, &export)
-        )),
+        (OutputFormat::Text, Some(file)) => {
+            let mut text = Text::from(format!("{}: {}", program.title(), file.display()));
+            text.append(unwritten(program, &export));
+            print(&text)
+        }
         (OutputFormat::Text, None) => {
             // The text may be on its way into a file; what is to be known of it is for the reader at the terminal.
             let _ = write!(anstream::stderr(), "{}", unwritten(program, &export));
@@ -93,13 +92,14 @@ fn written(path: &Path, result: io::Result<()>) -> Result<(), Failure> {
 }
 
 /// What the text does not say itself: of CSV, which has no comments, all; of the others the last alone, how exact the digits are.
-fn unwritten(program: Program, export: &Export) -> String {
+fn unwritten(program: Program, export: &Export) -> Text {
     let said = match program {
         Program::Csv => 0,
         _ => export.remarks.len().saturating_sub(1),
     };
-    let paragraphs = export.remarks.iter().skip(said);
-    paragraphs
-        .map(|remark| wrapped(remark, USUAL, "    ", "    "))
-        .collect()
+    let mut text = Text::default();
+    for remark in export.remarks.iter().skip(said) {
+        text.indented(remark, "    ", "    ");
+    }
+    text
 }

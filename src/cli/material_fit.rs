@@ -13,6 +13,7 @@ use crate::report::caption::Setting;
 use crate::report::dynamic::tables;
 use crate::report::figure::press::Files;
 use crate::report::page::{self, material::About};
+use crate::report::text::Text;
 use crate::report::{self, figure};
 use crate::sweep::plan::resolved;
 use crate::sweep::store::manifest::{Kind, Target};
@@ -65,12 +66,11 @@ fn fit_table(
     let block = block(data, &material);
     match format {
         OutputFormat::Json => json::print(&json::fit(&fit, &material)?)?,
-        OutputFormat::Text => print(&format!(
-            "{}\n{}{}",
-            report::fit::text(fit.report()),
-            report::fit::branches(&fit),
-            unless_written(flags, &block)
-        ))?,
+        OutputFormat::Text => {
+            let mut text = report::fit::text(fit.report());
+            text.append_apart(report::fit::branches(&fit));
+            print_block(flags, text, &block)?
+        }
     };
     let Some(target) = target else {
         return Ok(Ended::Done);
@@ -86,7 +86,7 @@ fn fit_table(
         let name = data.file_name().unwrap_or_default();
         let about = About {
             title: &format!("Fit to {}", name.display()),
-            text: &report::fit::text(fit.report()),
+            text: &report::fit::text(fit.report()).to_string(),
             block: &block,
             pictures,
             figure,
@@ -98,12 +98,13 @@ fn fit_table(
     print_place("Material and figures", target.folder, format)
 }
 
-/// The block to paste, where it does not go into a file.
-pub(super) fn unless_written(flags: &FitFlags, block: &str) -> String {
-    match flags.out {
-        Some(_) => String::new(),
-        None => format!("\n{block}"),
+/// Prints a fit, with the block to paste where that does not go into a file.
+pub(super) fn print_block(flags: &FitFlags, mut text: Text, block: &str) -> Result<Ended, Failure> {
+    if flags.out.is_none() {
+        text.blank();
+        text.append(block);
     }
+    print(&text)
 }
 
 /// The material block of a sweep file, ready to paste, every number exact.

@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 
 use super::arguments::{Branches, FitFlags, OutputFormat};
 use super::material::{commented, draw, print_place};
-use super::material_fit::unless_written;
-use super::{Ended, Failure, json, material_fit, print};
+use super::material_fit::print_block;
+use super::{Ended, Failure, json, material_fit};
 use crate::input::dynamic::{self, DynamicFormat};
 use crate::material::dynamic::master_curve::ShiftChoice;
 use crate::material::dynamic::{Choices, characterise};
@@ -69,10 +69,10 @@ pub(super) fn run(
     match format {
         OutputFormat::Json => json::print(&printed_json(&report, &block, shifting))?,
         OutputFormat::Text => {
-            let (text, shifts) = (report.text(), report.shift_table());
-            let branches = report.branches();
-            let block = unless_written(flags, &block);
-            print(&format!("{text}\n{shifts}\n{branches}{block}"))?
+            let mut text = report.text();
+            text.append_apart(report.shift_table());
+            text.append_apart(report.branches());
+            print_block(flags, text, &block)?
         }
     };
     let Some(target) = target else {

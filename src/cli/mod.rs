@@ -23,11 +23,10 @@ mod schema;
 mod simulate;
 mod stored;
 mod sweep;
-mod width;
 
 use std::ffi::{OsStr, OsString};
 use std::fmt::Display;
-use std::io::{self, Read, Write};
+use std::io::{self, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -41,6 +40,7 @@ use crate::input::document::{self, Document};
 use crate::input::dynamic::silence_caught_panics;
 use crate::report::ReportError;
 use crate::report::comparison::ComparisonError;
+use crate::report::text::Text;
 use crate::sweep::search::run::RunError;
 use crate::sweep::store::{Remedy, Store, StoreError};
 
@@ -193,7 +193,7 @@ fn printable(text: &str) -> String {
 }
 
 /// Says on standard error what has no result, where a command that is to be quiet prints nothing else.
-fn say_quietly(quiet: bool, failures: impl FnOnce() -> String) {
+fn say_quietly(quiet: bool, failures: impl FnOnce() -> Text) {
     if quiet {
         // Where even standard error is closed, the exit code is all that is left to say.
         let _ = write!(anstream::stderr(), "{}", failures());
@@ -274,7 +274,7 @@ fn tell(
     format: OutputFormat,
     quiet: bool,
     found: impl FnOnce() -> Result<Value, Failure>,
-    text: impl FnOnce() -> String,
+    text: impl FnOnce() -> Text,
 ) -> Result<Ended, Failure> {
     match format {
         OutputFormat::Json => json::print(&found()?),
@@ -284,12 +284,20 @@ fn tell(
 }
 
 /// Prints for people, no wider than their terminal.
-fn print(text: &str) -> Result<Ended, Failure> {
-    let text = printable(text);
-    match width::of_terminal() {
-        Some(columns) => write_out(&width::fitted(&text, columns)),
-        None => write_out(&text),
-    }
+fn print(text: &Text) -> Result<Ended, Failure> {
+    write_out(&printable(&text.in_columns(columns_of_terminal())))
+}
+
+/// The columns of the terminal: `COLUMNS` where it is set, else those of standard output; `None` where that is no terminal.
+fn columns_of_terminal() -> Option<usize> {
+    /// Narrower than this nothing can be read.
+    const NARROWEST: usize = 20;
+    let set = std::env::var("COLUMNS").ok();
+    let set = set.and_then(|columns| columns.trim().parse::<usize>().ok());
+    let stdout = io::stdout();
+    let real = || terminal_size::terminal_size_of(&stdout).map(|(width, _)| usize::from(width.0));
+    set.or_else(|| stdout.is_terminal().then(real).flatten())
+        .map(|columns| columns.max(NARROWEST))
 }
 
 /// Prints to standard output as it is. A reader that has seen enough (`| head`) is no error.

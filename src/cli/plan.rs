@@ -1,6 +1,5 @@
 //! `contact-dma plan`: what a sweep file would compute, and about what that costs.
 
-use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -13,6 +12,7 @@ use crate::indenter::Indenter;
 use crate::input::sweep_file;
 use crate::quantity::{Dimension, format_human};
 use crate::report::number::{four_digits, varied};
+use crate::report::text::{Column, Table, Text};
 use crate::sweep::case::Setup;
 use crate::sweep::plan::{Axes, Condition, SweepPlan};
 use crate::sweep::share::cost::Cost;
@@ -63,7 +63,7 @@ pub(super) fn show(setup: &Setup, format: OutputFormat) -> Result<Ended, Failure
     tell(format, false, found, || text(setup, &cost))
 }
 
-fn text(setup: &Setup, cost: &Cost) -> String {
+fn text(setup: &Setup, cost: &Cost) -> Text {
     let plan = setup.plan();
     let free = super::memory::free_here();
     let refined = match plan.refine {
@@ -75,14 +75,14 @@ fn text(setup: &Setup, cost: &Cost) -> String {
         1 => "1 case".to_owned(),
         cases => format!("{cases} cases"),
     };
-    format!(
-        "{}\n\n{}\n{cases} on {} ({} engine), {} steps per cycle.\n\
+    let mut text = Text::from(format!("{}\n\n", plan.title));
+    text.append(table(plan, cost));
+    text.append(format!(
+        "\n{cases} on {} ({} engine), {} steps per cycle.\n\
          Time: about {} on one thread, about {} on {processors}, peaks and figures included{refined};\n\
          from cases tried here, {} per step.\n\
          Memory: about {} on {processors}{free}. Disk: about {}.\n\
-         Shards: {} (more would take less than about ten minutes each, and save little time).\n",
-        plan.title,
-        table(plan, cost),
+         Shards: {} (more would take less than about ten minutes each, and save little time).",
         nodes(&plan.solver, plan.base.contact.indenter.as_ref()),
         plan.solver.engine.name(),
         plan.cycle.steps,
@@ -92,47 +92,57 @@ fn text(setup: &Setup, cost: &Cost) -> String {
         megabytes(cost.on_threads_bytes(processors)),
         megabytes(cost.disk_bytes),
         cost.shards(),
-    )
+    ));
+    text
 }
 
 /// One line per case.
-fn table(plan: &SweepPlan, cost: &Cost) -> String {
+fn table(plan: &SweepPlan, cost: &Cost) -> Text {
     let unit = plan.figures.frequency_unit;
     let memory = megabytes(cost.memory_bytes);
     // What an axis varies of something else than the drive takes the place of the drive, which is then the same for all.
     let own: Vec<_> = plan.axes.iter().flat_map(Axes::own_columns).collect();
+    let of_drive = [
+        Column::right("drive mean", 10),
+        Column::right("amplitude", 9),
+    ];
     let names: Vec<String> = own.iter().map(|(_, varied)| varied.name()).collect();
-    let head = match own.is_empty() {
-        true => "drive mean   amplitude".to_owned(),
-        false => names.join(", "),
+    let varying = match own.is_empty() {
+        true => of_drive.into(),
+        false => vec![Column::right(names.join(", "), 22)],
     };
     let of_case = |Condition { values, drive, .. }: &Condition| match own.is_empty() {
-        true => {
-            let (mean, amplitude) = (short(drive.mean()), short(drive.amplitude()));
-            format!("{mean:>10}   {amplitude:>9}")
-        }
+        true => vec![short(drive.mean()), short(drive.amplitude())],
         false => {
             let own = own.iter();
             let own = own.filter_map(|(axis, of)| Some(varied(of, values.get(*axis)?)));
-            own.collect::<Vec<_>>().join(", ")
+            vec![own.collect::<Vec<_>>().join(", ")]
         }
     };
     let frequency = format!("{} / {}", unit.symbol(), unit.name());
-    let mut text = format!(" case   {frequency:>10}   {head:>22}   cycles     about   memory\n");
+    let first = [Column::right("case", 5), Column::right(frequency, 10)];
+    let last = [
+        Column::right("cycles", 6).leaves_first(),
+        Column::right("about", 7),
+        Column::left("memory", 0).leaves_first(),
+    ];
+    let mut table = Table::new(3, first.into_iter().chain(varying).chain(last));
     for case in cost.cases.iter().take(LISTED) {
-        // Writing to a String cannot fail.
-        let _ = writeln!(
-            text,
-            "{:>5}   {:>10}   {:>22}   {:>6.0}   {:>7}   {memory}",
-            case.case.index,
+        let first = [
+            case.case.index.to_string(),
             four_digits(unit.of(case.case.angular_frequency_rad_per_s)),
-            of_case(&case.case.condition),
-            case.cycles.ceil(),
+        ];
+        let last = [
+            format!("{:.0}", case.cycles.ceil()),
             spoken(case.time_s),
-        );
+            memory.clone(),
+        ];
+        let cells = first.into_iter().chain(of_case(&case.case.condition));
+        table.row(cells.chain(last));
     }
+    let mut text = Text::from(table);
     if cost.cases.len() > LISTED {
-        let _ = writeln!(text, "  and {} more", cost.cases.len() - LISTED);
+        text.line(format!("  and {} more", cost.cases.len() - LISTED));
     }
     text
 }

@@ -15,7 +15,7 @@ use crate::input::keys;
 use crate::input::{scenario_file, sweep_file};
 use crate::report::machine::object;
 use crate::report::table::Cell;
-use crate::report::words::{USUAL, wrapped, wrapped_line};
+use crate::report::text::Text;
 use crate::reproduction::{
     self, Count, FIGURES, Figure, Plans, ReproductionError, SCENARIOS, SWEEPS, Verdict,
 };
@@ -143,18 +143,19 @@ fn plans() -> Result<Plans, Failure> {
 }
 
 /// What is printed at the end.
-fn text(made: &[Figure], folder: &Path) -> String {
+fn text(made: &[Figure], folder: &Path) -> Text {
     let counted = format!("{} figures: {}", made.len(), Count::of(made).text());
-    let mut text = wrapped_line(&counted);
+    let mut text = Text::default();
+    text.paragraph(counted);
     let statements = made.iter().flat_map(|figure| &figure.statements);
     for statement in statements.filter(|s| s.verdict == Verdict::Disagrees) {
         let line = format!(
             "disagrees: figure {}, {}; the paper: {}",
             statement.figure, statement.computed, statement.paper
         );
-        text.push_str(&wrapped(&line, USUAL, "  ", "    "));
+        text.indented(line, "  ", "    ");
     }
-    text.push_str(&format!("\nResults in {}\n", folder.display()));
+    text.append(format!("\nResults in {}", folder.display()));
     text
 }
 

@@ -3,7 +3,7 @@
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
-use super::{Ended, Failure, print};
+use super::{Ended, Failure, write_out};
 use crate::input::keys::FileKind;
 use crate::input::schema;
 
@@ -32,5 +32,5 @@ fn kinds() -> impl TypedValueParser<Value = FileKind> {
 }
 
 pub(super) fn run(flags: &SchemaFlags) -> Result<Ended, Failure> {
-    print(&schema::text(flags.kind))
+    write_out(&schema::text(flags.kind))
 }

@@ -93,7 +93,7 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
                 "memory_bytes": simulation.predicted_memory_bytes(),
             }))
         };
-        return tell(format, false, found, || predicted(&simulation));
+        return tell(format, false, found, || predicted(&simulation).into());
     }
     let resolved = scenario::resolved_text(simulation.plan());
     let out = (flags.out.as_deref(), flags.force);
@@ -142,9 +142,10 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
         )));
     }
     let text = || {
-        let text = terminal_simulation::text(simulation.plan(), &outcome);
-        let left_out: String = left_out.iter().map(|line| format!("{line}\n")).collect();
-        format!("{text}{left_out}\nResults in {folder}\n")
+        let mut text = terminal_simulation::text(simulation.plan(), &outcome);
+        text.append(left_out.join("\n"));
+        text.append(format!("\nResults in {folder}"));
+        text
     };
     tell(format, flags.quiet, || found_in(&store, &outcome), text)?;
     Ok(match outcome.ended {

@@ -16,6 +16,7 @@ use super::{
 };
 use crate::figures::paper::drawing_bytes;
 use crate::input::sweep_file;
+use crate::report::text::Text;
 use crate::report::{self, terminal};
 use crate::sweep::case::Setup;
 use crate::sweep::plan::Block;
@@ -207,44 +208,42 @@ impl<'a> Job<'a> {
         let text = || self.text(outcome, &left_out);
         tell(self.format, self.quiet, found, text)?;
         if self.stats && self.format == OutputFormat::Text {
-            print(&terminal::work(outcome))?;
+            print(&terminal::work(outcome).into())?;
         }
         Ok(ended(outcome.interrupted, &outcome.records))
     }
 
     /// What is printed at the end.
-    fn text(&self, outcome: &Outcome, left_out: &[String]) -> String {
+    fn text(&self, outcome: &Outcome, left_out: &[String]) -> Text {
         let plan = self.setup.plan();
-        let mut text = format!("{}\n\n", plan.title);
+        let mut text = Text::from(format!("{}\n\n", plan.title));
         for (_, condition) in plan.each_of(Block::Material) {
             let material = &condition.contact.material;
             let fit = report::fit::fitted(material);
             let known = material.origin.approximation.as_ref();
             let approximation = known.map(|_| report::fit::approximation(material));
             for part in fit.into_iter().chain(approximation) {
-                text.push_str(&format!("{part}\n"));
+                text.append(part);
+                text.blank();
             }
         }
-        text.push_str(&terminal::table(plan, outcome));
+        text.append(terminal::table(plan, outcome));
         for part in [
             terminal::peaks(plan, outcome),
             terminal::problems(plan, outcome),
             terminal::warnings_of_sweep(plan, outcome),
-            left_out.iter().map(|line| format!("{line}\n")).collect(),
+            left_out.join("\n").into(),
         ] {
-            if !part.is_empty() {
-                text.push('\n');
-                text.push_str(&part);
-            }
+            text.append_apart(part);
         }
         if outcome.interrupted {
-            text.push_str(&format!(
-                "\nInterrupted: {} of {} cases are done. The same command continues with the others.\n",
+            text.append(format!(
+                "\nInterrupted: {} of {} cases are done. The same command continues with the others.",
                 outcome.records.len(),
                 plan.cases().len()
             ));
         }
-        text.push_str(&format!("\nResults in {}\n", self.store.folder().display()));
+        text.append(format!("\nResults in {}", self.store.folder().display()));
         text
     }
 
@@ -293,10 +292,9 @@ impl<'a> Job<'a> {
             ),
         };
         let folder = self.store.folder().display();
-        let text = format!(
-            "Shard {shard}: {done} of {own} cases are done. {next}\n\nRecords in {folder}\n"
-        );
-        tell(self.format, self.quiet, || Ok(found), || text)?;
+        let text =
+            format!("Shard {shard}: {done} of {own} cases are done. {next}\n\nRecords in {folder}");
+        tell(self.format, self.quiet, || Ok(found), || text.into())?;
         Ok(ended(outcome.interrupted, &outcome.records))
     }
 }

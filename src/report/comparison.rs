@@ -338,7 +338,11 @@ mod tests {
         let found = compare(&all, &one);
         assert!(found.differs());
         assert_eq!(found.missing[0].angular_frequency_rad_per_s, 2.0);
-        assert!(found.text().contains("missing"), "{}", found.text());
+        assert!(
+            found.text().to_string().contains("missing"),
+            "{}",
+            found.text()
+        );
         assert_eq!(compare(&one, &all).added.len(), 1);
     }
 

@@ -1,11 +1,10 @@
 //! A material as text, table and figures: its series both ways, its moduli over frequency, its peaks.
 
-use std::fmt::Write;
-
 use super::figure;
 use super::figure::Figure;
 use super::figure::moduli::ModulusPoint;
 use super::number::{four_digits, range, six_digits};
+use super::text::{Column, Table, Text};
 use super::words;
 use crate::material::{Creep, LossPeak, Material, MaterialError, MaterialFunction, Relaxation};
 use crate::quantity::{Dimension, format_human};
@@ -87,132 +86,125 @@ impl<'a> MaterialReport<'a> {
     }
 
     /// The Poisson ratio, or the bulk modulus and how the Poisson ratio goes with time.
-    fn compressibility(&self) -> Result<String, MaterialError> {
+    fn compressibility(&self) -> Result<Text, MaterialError> {
         let mut line = words::compressibility(self.material);
         line.replace_range(..1, &line[..1].to_uppercase());
+        let mut text = Text::from(line);
         if self.material.poisson_ratio().is_none() {
             let relaxation = self.material.relaxation().into_iter();
             let times = relaxation.flat_map(|r| r.branches().iter().map(|b| b.time_s));
-            line.push_str("\n\n       t / s  Poisson ratio in a relaxation test");
+            let columns = [
+                Column::right("t / s", 12),
+                Column::left("Poisson ratio in a relaxation test", 0),
+            ];
+            let mut table = Table::new(2, columns);
             for time_s in [0.0].into_iter().chain(times).chain([f64::INFINITY]) {
                 let nu = self.material.poisson_ratio_at(time_s)?;
-                line.push_str(&format!("\n{:>12}  {nu:.4}", six_digits(time_s)));
+                table.row([six_digits(time_s), format!("{nu:.4}")]);
             }
+            text.blank();
+            text.append(table);
         }
-        Ok(line)
+        Ok(text)
     }
 
     /// The text: series, limits, table, peaks.
     ///
     /// # Errors
     /// What the conversion of the material refuses.
-    pub fn text(&self) -> Result<String, MaterialError> {
-        let mut text = String::new();
+    pub fn text(&self) -> Result<Text, MaterialError> {
         let symbol = self.symbol;
         let kind = self.material.kind();
         let compliance = MaterialFunction::Creep.symbol(kind);
         let kind = kind.name();
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "{}", self.compressibility()?);
-        let _ = writeln!(text, "\nRelaxation modulus ({kind}; MPa, s)");
-        match self.material.relaxation() {
-            Some(relaxation) => relaxation_lines(&mut text, symbol, relaxation),
-            None => text.push_str(
-                "  none: without an instantaneous compliance it has an impulse at t = 0\n",
-            ),
-        }
+        let mut text = self.compressibility()?;
+        text.append(format!("\nRelaxation modulus ({kind}; MPa, s)"));
+        text.append(match self.material.relaxation() {
+            Some(relaxation) => relaxation_lines(symbol, relaxation),
+            None => {
+                "  none: without an instantaneous compliance it has an impulse at t = 0".to_owned()
+            }
+        });
         let creep = self.material.creep();
-        let _ = writeln!(text, "\nCreep compliance ({kind}; 1/MPa, s)");
-        creep_lines(&mut text, compliance, creep);
-        let _ = writeln!(text, "\nShear creep function J(t)/2 (1/MPa, s)");
-        creep_lines(&mut text, 'Φ', &self.material.shear_creep_function()?);
-        moduli_table(&mut text, symbol, compliance, &self.moduli(2));
+        text.append(format!("\nCreep compliance ({kind}; 1/MPa, s)"));
+        text.append(creep_lines(compliance, creep));
+        text.append("\nShear creep function J(t)/2 (1/MPa, s)");
+        text.append(creep_lines('Φ', &self.material.shear_creep_function()?));
+        text.blank();
+        text.append(moduli_table(symbol, compliance, &self.moduli(2)));
         let peaks = self.material.loss_peaks(self.material.kind())?;
-        let _ = writeln!(text, "\nPeaks over angular frequency");
+        text.append("\nPeaks over angular frequency");
         let modulus = |value| format_human(value, Dimension::Stress, 5);
         let per_mpa = |value: f64| format!("{:.4e} 1/MPa", value * 1e6);
         let tangent = |value| format!("{value:.4}");
-        text.push_str(&peak_lines(
-            format!("{symbol}″"),
-            &peaks.loss_modulus,
-            modulus,
-        ));
-        text.push_str(&peak_lines(
-            format!("{compliance}″"),
-            &peaks.loss_compliance,
-            per_mpa,
-        ));
-        text.push_str(&peak_lines(
-            "tan δ".to_owned(),
-            &peaks.loss_tangent,
-            tangent,
-        ));
+        let (e, d) = (format!("{symbol}″"), format!("{compliance}″"));
+        text.append(peak_lines(&e, &peaks.loss_modulus, modulus));
+        text.append(peak_lines(&d, &peaks.loss_compliance, per_mpa));
+        text.append(peak_lines("tan δ", &peaks.loss_tangent, tangent));
         Ok(text)
     }
 }
 
-fn relaxation_lines(text: &mut String, symbol: char, relaxation: &Relaxation) {
+fn relaxation_lines(symbol: char, relaxation: &Relaxation) -> String {
     let mpa = |pa: f64| six_digits(pa * 1e-6);
-    let _ = write!(
-        text,
-        "  {symbol}(t) = {}",
-        mpa(relaxation.equilibrium_modulus())
-    );
+    let mut text = format!("  {symbol}(t) = {}", mpa(relaxation.equilibrium_modulus()));
     for branch in relaxation.branches() {
         let (modulus, time) = (mpa(branch.modulus_pa), six_digits(branch.time_s));
-        let _ = write!(text, "\n       + {modulus} exp(-t / {time})");
+        text.push_str(&format!("\n       + {modulus} exp(-t / {time})"));
     }
     let at_once = mpa(relaxation.instantaneous_modulus());
-    let _ = writeln!(text, "\n  {symbol}(0) = {at_once} MPa");
+    text + &format!("\n  {symbol}(0) = {at_once} MPa")
 }
 
-fn creep_lines(text: &mut String, symbol: char, creep: &Creep) {
+fn creep_lines(symbol: char, creep: &Creep) -> String {
     let per_mpa = |per_pa: f64| format!("{:.4e}", per_pa * 1e6);
     // As the paper writes it where that is there: equilibrium less what is still to come.
     let equilibrium = creep.equilibrium_compliance();
     let first = equilibrium.unwrap_or(creep.instantaneous_compliance());
-    let _ = write!(text, "  {symbol}(t) = {}", per_mpa(first));
+    let mut text = format!("  {symbol}(t) = {}", per_mpa(first));
     for branch in creep.branches() {
         let (compliance, time) = (per_mpa(branch.compliance_per_pa), six_digits(branch.time_s));
         let rate = six_digits(branch.time_s.recip());
-        let _ = match equilibrium {
-            Some(_) => write!(
-                text,
-                "\n       - {compliance} exp(-{rate} t)    retardation time {time} s"
-            ),
-            None => write!(text, "\n       + {compliance} (1 - exp(-t / {time}))"),
-        };
+        text.push_str(&match equilibrium {
+            Some(_) => {
+                format!("\n       - {compliance} exp(-{rate} t)    retardation time {time} s")
+            }
+            None => format!("\n       + {compliance} (1 - exp(-t / {time}))"),
+        });
     }
     if let Some(viscosity) = creep.viscosity_pa_s().filter(|_| equilibrium.is_none()) {
-        let _ = write!(
-            text,
+        text.push_str(&format!(
             "\n       + t / {} MPa s",
             six_digits(viscosity * 1e-6)
-        );
+        ));
     }
-    text.push('\n');
+    text
 }
 
-fn moduli_table(text: &mut String, symbol: char, compliance: char, points: &[ModulusPoint]) {
-    let _ = writeln!(
-        text,
-        "\n  ω / rad/s     {symbol}′ / MPa     {symbol}″ / MPa      tan δ   {compliance}′ / 1/MPa   {compliance}″ / 1/MPa"
-    );
+fn moduli_table(symbol: char, compliance: char, points: &[ModulusPoint]) -> Table {
+    let columns = [
+        Column::right("ω / rad/s", 11),
+        Column::right(format!("{symbol}′ / MPa"), 11),
+        Column::right(format!("{symbol}″ / MPa"), 11),
+        Column::right("tan δ", 9),
+        Column::right(format!("{compliance}′ / 1/MPa"), 11),
+        Column::right(format!("{compliance}″ / 1/MPa"), 11),
+    ];
+    let mut table = Table::new(2, columns);
     for p in points {
-        let _ = writeln!(
-            text,
-            "{:>11}  {:>11}  {:>11}  {:>9.3e}  {:>11.4e}  {:>11.4e}",
+        table.row([
             four_digits(p.angular_frequency_rad_per_s),
             six_digits(p.storage_modulus_pa * 1e-6),
             six_digits(p.loss_modulus_pa * 1e-6),
-            p.loss_modulus_pa / p.storage_modulus_pa,
-            p.storage_compliance_per_pa * 1e6,
-            p.loss_compliance_per_pa * 1e6,
-        );
+            format!("{:.3e}", p.loss_modulus_pa / p.storage_modulus_pa),
+            format!("{:.4e}", p.storage_compliance_per_pa * 1e6),
+            format!("{:.4e}", p.loss_compliance_per_pa * 1e6),
+        ]);
     }
+    table
 }
 
-fn peak_lines(name: String, peaks: &[LossPeak], value: fn(f64) -> String) -> String {
+fn peak_lines(name: &str, peaks: &[LossPeak], value: fn(f64) -> String) -> String {
     if peaks.is_empty() {
         return format!("  {name}: none\n");
     }

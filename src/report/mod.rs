@@ -2,7 +2,7 @@
 //!
 //! The feature `tables` has columns and tables alone, the feature `report` figures and pages too.
 //!
-//! Its parts from top to bottom, each of which may use those above it: numbers, words and peaks as text; lines over the surface;
+//! Its parts from top to bottom, each of which may use those above it: numbers, words, text that is laid out for a terminal; peaks; lines over the surface;
 //! tables, and the quantities that are their columns; tables of sweeps and scenarios; captions; comparison; chart; figure; material; page; summary and results for
 //! programs; terminal; scenario. A test holds them to that.
 //!
@@ -67,6 +67,7 @@ pub mod table;
 pub mod terminal;
 #[cfg(feature = "report")]
 pub mod terminal_simulation;
+pub mod text;
 pub mod vti;
 pub mod warnings;
 pub mod words;

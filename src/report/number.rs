@@ -239,6 +239,12 @@ pub(super) fn digits(value: Option<f64>, significant: usize) -> String {
     text.replace('-', "−")
 }
 
+/// Two significant digits of a positive number, without an exponent.
+pub fn two_digits(value: f64) -> String {
+    let decimals = (1.0 - value.log10().floor()).clamp(0.0, 6.0) as usize;
+    format!("{value:.decimals$}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

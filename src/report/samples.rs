@@ -1,12 +1,12 @@
 //! What is said of samples that are taken as they are.
 
-use super::words::wrapped_line;
+use super::text::Text;
 use crate::material::MaterialFunction;
 use crate::material::sampled::Sampled;
 use crate::quantity::{Dimension, format_human};
 
 /// That there was no fit, what is odd about the samples, and where a history of this length (s) leaves them.
-pub fn text(sampled: &Sampled, duration_s: f64) -> String {
+pub fn text(sampled: &Sampled, duration_s: f64) -> Text {
     let table = sampled.table();
     let name = match table.function() {
         MaterialFunction::Creep => "creep compliance",
@@ -39,7 +39,7 @@ pub fn text(sampled: &Sampled, duration_s: f64) -> String {
             "Warning: the data end at {last} and the history at {end}: the compliance keeps its last value after"
         ));
     }
-    lines.iter().map(|line| wrapped_line(line)).collect()
+    lines.into_iter().collect()
 }
 
 #[cfg(test)]
@@ -57,10 +57,10 @@ mod tests {
                 Tabulated::new(MaterialFunction::Creep, kind, times, values.clone()).unwrap();
             Sampled::new(table, 0.5).unwrap()
         };
-        let covered = text(&of(vec![0.0, 10.0, 100.0, 1000.0]), 1000.0);
+        let covered = text(&of(vec![0.0, 10.0, 100.0, 1000.0]), 1000.0).to_string();
         assert_eq!(covered.matches('\n').count(), 2, "{covered}");
         assert!(covered.contains("4 samples of the creep compliance"));
-        let longer = text(&of(times), 2000.0);
+        let longer = text(&of(times), 2000.0).to_string();
         for part in ["begin at 1", "Warning: the data end at 1000", "2000"] {
             assert!(longer.contains(part), "{part} is missing in:\n{longer}");
         }

@@ -1,13 +1,14 @@
-//! What a sweep prints at its end: the table, the peaks, and what went wrong. At most 80 columns.
+//! What a sweep prints at its end: the table, the peaks, and what went wrong.
 
-use std::fmt::{Display, Write};
+use std::fmt::Display;
 
 use super::figure;
 use super::figure::units::Units;
 use super::number::{Measured, four_digits};
 use super::peaks;
 use super::rigid_indenter;
-use super::words::{without_result, wrapped_line};
+use super::text::{Column, Table, Text};
+use super::words::without_result;
 use crate::history::Work;
 use crate::quantity::{Dimension, FrequencyUnit, format_human};
 use crate::report::warnings;
@@ -17,53 +18,49 @@ use crate::sweep::search::run::Outcome;
 
 /// One line per case: frequency, loss with its error, phase, cycles, status; an absent value is a dash. A sweep of two axes
 /// has one line per value of the second instead: its cases are too many to be read.
-pub fn table(plan: &SweepPlan, outcome: &Outcome) -> String {
+pub fn table(plan: &SweepPlan, outcome: &Outcome) -> Text {
     match &plan.axes {
         Some(axes) => conditions(plan, axes, outcome),
         None => cases(plan.figures.frequency_unit, &outcome.records),
     }
 }
 
-/// Headings on the terminal of what tells rows apart, besides the first column, or says how they ended: a narrow one shows them too.
-pub const ALWAYS_SHOWN: [&str; 4] = ["status", "converged", "file", "modulus"];
-/// Headings of the columns that a narrow terminal leaves out first; of the others it leaves out those on the right.
-pub const LEAVES_FIRST: [&str; 2] = ["cycles", "memory"];
-
 /// The head of a column of frequencies: `ω / rad/s`.
 fn frequency_head(unit: FrequencyUnit) -> String {
     format!("{} / {}", unit.symbol(), unit.name())
 }
 
-fn cases(unit: FrequencyUnit, records: &[CaseRecord]) -> String {
+fn cases(unit: FrequencyUnit, records: &[CaseRecord]) -> Text {
     let has_material_error = (records.iter()).any(|r| r.energy_loss_material_error_j().is_some());
     // Both would make the lines too long.
-    let (fourth, width) = match has_material_error {
-        true => ("material", 8),
-        false => ("cycles", 6),
+    let fourth = match has_material_error {
+        true => Column::right("material", 8),
+        false => Column::right("cycles", 6).leaves_first(),
     };
-    let frequency = frequency_head(unit);
-    let mut text =
-        format!("{frequency:>10}   loss / cycle              phase / deg   {fourth:>6}   status\n");
+    let columns = [
+        Column::right(frequency_head(unit), 10),
+        Column::left("loss / cycle", 23),
+        Column::right("phase / deg", 11),
+        fourth,
+        Column::left("status", 0).stays(),
+    ];
+    let mut table = Table::new(3, columns);
     for record in records {
-        let omega = four_digits(unit.of(record.angular_frequency_rad_per_s));
-        let loss = loss(record.energy_loss_j(), record.energy_loss_error_j());
         let phase = record.result.as_ref().map(|r| r.analysis.phase_lag_rad);
-        let phase = or_dash(phase.map(|rad| format!("{:.4}", rad.to_degrees())));
-        let fourth = match has_material_error {
-            true => or_dash(material_error(record)),
-            false => record.cycles.to_string(),
-        };
-        let status = record.status.name();
-        // Writing to a String cannot fail.
-        let _ = writeln!(
-            text,
-            "{omega:>10}   {loss}   {phase:>11}   {fourth:>width$}   {status}"
-        );
+        table.row([
+            four_digits(unit.of(record.angular_frequency_rad_per_s)),
+            loss(record.energy_loss_j(), record.energy_loss_error_j()),
+            or_dash(phase.map(|rad| format!("{:.4}", rad.to_degrees()))),
+            match has_material_error {
+                true => or_dash(material_error(record)),
+                false => record.cycles.to_string(),
+            },
+            record.status.name().to_owned(),
+        ]);
     }
+    let mut text = Text::from(table);
     if has_material_error {
-        text.push_str(
-            "Beside the loss: numerical error; material: 95 % from the noise of its data.\n",
-        );
+        text.line("Beside the loss: numerical error; material: 95 % from the noise of its data.");
     }
     text
 }
@@ -80,9 +77,8 @@ fn material_error(record: &CaseRecord) -> Option<String> {
 }
 
 /// Each value of the second axis with its highest peak.
-fn conditions(plan: &SweepPlan, axes: &Axes, outcome: &Outcome) -> String {
+fn conditions(plan: &SweepPlan, axes: &Axes, outcome: &Outcome) -> Text {
     let names: Vec<String> = axes.over.iter().map(Varied::name).collect();
-    let name = names.join(", ");
     let unit = plan.figures.frequency_unit;
     let units = Units::default();
     let curves = figure::curve::curves(plan, outcome, &units);
@@ -91,24 +87,25 @@ fn conditions(plan: &SweepPlan, axes: &Axes, outcome: &Outcome) -> String {
         let values = values.map(|(varied, value)| units.varied_value(varied, *value));
         values.collect::<Vec<_>>().join(", ")
     };
-    let values: Vec<String> = curves.iter().map(|curve| value(&curve.condition)).collect();
-    let texts = values.iter().chain([&name]);
-    let width = texts.map(|text| text.chars().count()).fold(10, usize::max);
-    let frequency = frequency_head(unit);
-    let mut text =
-        format!("{name:>width$}   converged    loss / cycle, peak          {frequency:>10}\n");
-    for (curve, value) in curves.iter().zip(values) {
+    let columns = [
+        Column::right(names.join(", "), 10),
+        Column::right("converged", 9).stays(),
+        Column::left(" loss / cycle, peak", 23),
+        Column::right(frequency_head(unit), 12),
+    ];
+    let mut table = Table::new(3, columns);
+    for curve in &curves {
         let peak = outcome.highest_peak(&curve.condition);
         let error_j = peak.and_then(|p| p.energy_loss_error_j);
-        let loss = loss(peak.map(|p| p.energy_loss_j), error_j);
         let at = peak.map(|p| four_digits(unit.of(p.angular_frequency_rad_per_s)));
-        let (at, count) = (
-            or_dash(at),
+        table.row([
+            value(&curve.condition),
             format!("{} of {}", curve.results().len(), curve.records.len()),
-        );
-        let _ = writeln!(text, "{value:>width$}   {count:>9}   {loss}     {at:>10}");
+            loss(peak.map(|p| p.energy_loss_j), error_j),
+            or_dash(at),
+        ]);
     }
-    text
+    table.into()
 }
 
 /// A loss with its error, as two columns to be read together: `3.5090 µJ ± 0.0003`.
@@ -129,20 +126,16 @@ fn loss(loss_j: Option<f64>, error_j: Option<f64>) -> String {
 }
 
 /// Peaks, largest first; where there are none, why. Of a sweep of two axes the largest alone: each curve has its own.
-pub fn peaks(plan: &SweepPlan, outcome: &Outcome) -> String {
-    let mut text = String::new();
+pub fn peaks(plan: &SweepPlan, outcome: &Outcome) -> Text {
+    let mut text = Text::default();
     for peak in peaks::shown(plan, outcome) {
-        text.push_str(&wrapped_line(&format!(
-            "{}: {}",
-            peak.name(),
-            peak.sentence()
-        )));
+        text.paragraph(format!("{}: {}", peak.name(), peak.sentence()));
     }
     for problem in &outcome.peak_problems {
-        text.push_str(&wrapped_line(&format!("Peak not located: {problem}")));
+        text.paragraph(format!("Peak not located: {problem}"));
     }
     if text.is_empty() && !outcome.interrupted {
-        let _ = writeln!(text, "{}", peaks::none(plan, outcome));
+        text.line(peaks::none(plan, outcome));
     }
     text
 }
@@ -160,28 +153,28 @@ pub fn work(outcome: &Outcome) -> String {
         0 => String::new(),
         _ => format!(", {each:.1} convolutions an instant"),
     };
-    format!("Work: {instants} instants, {iterations:.1} iterations an instant{convolutions}\n")
+    format!("Work: {instants} instants, {iterations:.1} iterations an instant{convolutions}")
 }
 
 /// Cases without a result, with the reason.
-pub fn problems(plan: &SweepPlan, outcome: &Outcome) -> String {
-    let lines = without_result(plan.figures.frequency_unit, outcome);
-    lines.map(|line| wrapped_line(&line)).collect()
+pub fn problems(plan: &SweepPlan, outcome: &Outcome) -> Text {
+    without_result(plan.figures.frequency_unit, outcome).collect()
 }
 
 /// What lies outside the model, or was not estimated: one line for each kind, whatever the number of cases.
-pub fn warnings_of_sweep(plan: &SweepPlan, outcome: &Outcome) -> String {
+pub fn warnings_of_sweep(plan: &SweepPlan, outcome: &Outcome) -> Text {
     let unit = plan.figures.frequency_unit;
-    let note = rigid_indenter::note(plan, outcome);
-    let note = note.map(|note| wrapped_line(&format!("note: {note}")));
-    warned(warnings::over_cases(&outcome.records, unit)) + &note.unwrap_or_default()
+    let mut text = warned(warnings::over_cases(&outcome.records, unit));
+    if let Some(note) = rigid_indenter::note(plan, outcome) {
+        text.paragraph(format!("note: {note}"));
+    }
+    text
 }
 
 /// Warnings, one after another.
-pub fn warned(warnings: impl IntoIterator<Item = impl Display>) -> String {
+pub fn warned(warnings: impl IntoIterator<Item = impl Display>) -> Text {
     let lines = warnings.into_iter();
-    let lines = lines.map(|warning| format!("warning: {warning}"));
-    lines.map(|line| wrapped_line(&line)).collect()
+    lines.map(|warning| format!("warning: {warning}")).collect()
 }
 
 #[cfg(test)]

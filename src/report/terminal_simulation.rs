@@ -1,6 +1,4 @@
-//! What a simulation prints at its end. At most 80 columns.
-
-use std::fmt::Write;
+//! What a simulation prints at its end.
 
 use crate::quantity::{Dimension, format_human};
 use crate::report::fit;
@@ -8,6 +6,7 @@ use crate::report::number::with_error;
 use crate::report::quantities::{Column, HISTORY, Moment};
 use crate::report::samples;
 use crate::report::terminal;
+use crate::report::text::{Column as Shown, Table, Text};
 use crate::simulation::body_material::BodyMaterial;
 use crate::simulation::cycles::HistoryCycle;
 use crate::simulation::outside_model;
@@ -15,8 +14,8 @@ use crate::simulation::scenario::ScenarioPlan;
 use crate::simulation::{SimulationEnd, SimulationOutcome};
 
 /// Title, material where it comes from a table, extent of the history, its largest contact and its end, with errors.
-pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
-    let mut text = format!("{}\n\n", plan.title);
+pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Text {
+    let mut text = Text::from(format!("{}\n\n", plan.title));
     let material = match &plan.contact.material {
         BodyMaterial::Series(material) if material.origin.approximation.is_some() => {
             Some(fit::approximation(material))
@@ -25,53 +24,70 @@ pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
         BodyMaterial::Samples(sampled) => Some(samples::text(sampled, plan.drive.duration_s())),
     };
     if let Some(material) = material {
-        let _ = writeln!(text, "{material}");
+        text.append(material);
+        text.blank();
     }
     if outcome.rows.is_empty() {
-        text.push_str("Interrupted before the first time step.\n");
+        text.line("Interrupted before the first time step.");
         return text;
     }
     if outcome.ended == SimulationEnd::Interrupted {
         let duration = format_human(plan.drive.duration_s(), Dimension::Time, 4);
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "Interrupted: the history was to last {duration}.");
+        text.line(format!("Interrupted: the history was to last {duration}."));
     }
-    let headings: String = columns()
-        .map(|column| format!(" {:>12}", column.heading))
-        .collect();
-    let _ = writeln!(text, "{:>22}{headings}", "time");
+    text.append(extremes(outcome));
+    let enlarged = match outcome.domain_enlarged {
+        0 => String::new(),
+        n => format!(", domain enlarged {n} times"),
+    };
+    text.append(format!(
+        "\n{} time steps, {} engine{enlarged}",
+        outcome.rows.len(),
+        plan.solver.engine.name(),
+    ));
+    text.append(cycles(outcome));
+    text.append_apart(terminal::warned(outside_model::warnings(plan, outcome)));
+    if let Some(why) = &outcome.errors_missing {
+        text.line(format!("Without errors: {why}."));
+    }
+    text
+}
+
+/// The largest contact and the end, each with its errors below.
+fn extremes(outcome: &SimulationOutcome) -> Table {
     let moments: Vec<Moment> = Moment::all(outcome).collect();
     let radius_m = |moment: &&Moment| moment.row.contact_radius_m;
     // Of equals the first.
     let wider = |a, b| if radius_m(&b) > radius_m(&a) { b } else { a };
-    let has_errors = !outcome.errors.is_empty();
+    let headings = columns().map(|column| Shown::right(column.heading, 12));
+    let first = [Shown::left("", 8), Shown::right("time", 13)];
+    let mut table = Table::new(1, first.into_iter().chain(headings));
     for (name, moment) in [
         ("widest", moments.iter().reduce(wider)),
         ("last", moments.last()),
     ] {
-        if let Some(moment) = moment {
-            line(&mut text, name, moment, has_errors);
+        let Some(moment) = moment else { continue };
+        let mut row =
+            |name: &str, time: String, value: &dyn Fn(&Column<Moment>) -> Option<f64>, digits| {
+                let cell = |column: &'static Column<Moment>| {
+                    let value = value(column).zip(column.dimension);
+                    let value =
+                        value.map(|(value, dimension)| format_human(value, dimension, digits));
+                    value.unwrap_or_else(|| "-".to_owned())
+                };
+                table.row(
+                    [name.to_owned(), time]
+                        .into_iter()
+                        .chain(columns().map(cell)),
+                );
+            };
+        let time = format_human(moment.row.time_s, Dimension::Time, 4);
+        row(name, time, &|column| column.number(moment), 4);
+        if !outcome.errors.is_empty() {
+            row("", "±".to_owned(), &|column| column.error(moment), 2);
         }
     }
-    let _ = writeln!(
-        text,
-        "\n{} time steps, {} engine{}",
-        outcome.rows.len(),
-        plan.solver.engine.name(),
-        match outcome.domain_enlarged {
-            0 => String::new(),
-            n => format!(", domain enlarged {n} times"),
-        }
-    );
-    text.push_str(&cycles(outcome));
-    let warnings = terminal::warned(outside_model::warnings(plan, outcome));
-    if !warnings.is_empty() {
-        let _ = write!(text, "\n{warnings}");
-    }
-    if let Some(why) = &outcome.errors_missing {
-        let _ = writeln!(text, "Without errors: {why}.");
-    }
-    text
+    table
 }
 
 /// The loss of the first and the last cycle of every sine segment; nothing where there is none.
@@ -102,24 +118,4 @@ fn columns() -> impl Iterator<Item = &'static Column<Moment>> {
     HISTORY
         .iter()
         .filter(|column| column.error_name().is_some())
-}
-
-/// A row, and its errors below it.
-fn line(text: &mut String, name: &str, moment: &Moment, has_errors: bool) {
-    let cells = |value: &dyn Fn(&Column<Moment>) -> Option<f64>, digits| -> String {
-        let cell = |column: &'static Column<Moment>| {
-            let value = value(column).zip(column.dimension);
-            let value = value.map(|(value, dimension)| format_human(value, dimension, digits));
-            format!(" {:>12}", value.as_deref().unwrap_or("-"))
-        };
-        columns().map(cell).collect()
-    };
-    let time = format_human(moment.row.time_s, Dimension::Time, 4);
-    let values = cells(&|column| column.number(moment), 4);
-    // Writing to a String cannot fail.
-    let _ = writeln!(text, "{name:<8}{time:>14}{values}");
-    if has_errors {
-        let errors = cells(&|column| column.error(moment), 2);
-        let _ = writeln!(text, "{:<8}{:>14}{errors}", "", "±");
-    }
 }

@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 
 use super::number::{self, four_digits, plain, scientific};
 use crate::drive::HarmonicDrive;
-use crate::engine::EngineKind;
-use crate::indenter::{Setting, Value};
+use crate::engine::{EngineKind, SolverPlan};
+use crate::indenter::{Indenter, Setting, Value};
 use crate::material::{Compressibility, Material, Relaxation};
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::plan::adhesion::AdhesionPlan;
@@ -148,6 +148,15 @@ pub fn value(value: &Value) -> String {
     }
 }
 
+/// The nodes of an engine, in words.
+pub fn nodes(solver: &SolverPlan, indenter: &dyn Indenter) -> String {
+    match (solver.engine, indenter.own_cells()) {
+        (EngineKind::Axisymmetric, _) => format!("{} springs", solver.springs),
+        (EngineKind::HalfSpace, Some((x, y))) => format!("{x} x {y} cells of the map"),
+        (EngineKind::HalfSpace, None) => format!("{0} x {0} cells", solver.cells),
+    }
+}
+
 /// What the nodes of an engine are called.
 pub fn nodes_name(engine: EngineKind) -> &'static str {
     match engine {
@@ -179,49 +188,9 @@ pub fn listed(items: &[String]) -> String {
     }
 }
 
-/// A paragraph in lines of at most so many columns, as far as its words allow; `first` stands before the first line, `next` before
-/// the others.
-pub fn wrapped(text: &str, columns: usize, first: &str, next: &str) -> String {
-    let mut lines = vec![first.to_owned()];
-    let mut is_empty = true;
-    for word in text.split_whitespace() {
-        let line = lines.last().map_or(0, |line| line.chars().count());
-        if !is_empty && line + 1 + word.chars().count() > columns {
-            lines.push(next.to_owned());
-            is_empty = true;
-        }
-        if let Some(line) = lines.last_mut() {
-            if !is_empty {
-                line.push(' ');
-            }
-            line.push_str(word);
-            is_empty = false;
-        }
-    }
-    lines.join("\n") + "\n"
-}
-
-/// The columns of a terminal that text is written for.
-pub const USUAL: usize = 80;
-
-/// One line of at most so many columns broken between words, what follows the first set in by two.
-pub fn wrapped_line(line: &str) -> String {
-    wrapped(line, USUAL, "", "  ")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn paragraphs_are_wrapped_between_words() {
-        assert_eq!(wrapped("a bb  ccc d", 6, "", " "), "a bb\n ccc d\n");
-        assert_eq!(
-            wrapped("longer than that", 4, "- ", "  "),
-            "- longer\n  than\n  that\n"
-        );
-        assert_eq!(wrapped("", 9, "    ", ""), "    \n");
-    }
 
     #[test]
     fn lists_read_as_words() {

@@ -32,9 +32,10 @@ const MODULES: [&str; 21] = [
 const SWEEP: [&str; 6] = ["plan", "record", "store", "case", "share", "search"];
 
 /// Parts of the module `report` from top to bottom.
-const REPORT: [&str; 34] = [
+const REPORT: [&str; 35] = [
     "number",
     "words",
+    "text",
     "warnings",
     "peaks",
     "rigid_indenter",

@@ -344,7 +344,7 @@ fn an_elastic_body_loses_nothing_and_is_not_asked_for_a_wider_sweep() {
         plan.cycle.steps = 32;
         plan.solver.engine = engine;
         plan.solver.cells = 32;
-        let told = report::terminal::peaks(&plan, &swept(plan.clone()).outcome);
+        let told = report::terminal::peaks(&plan, &swept(plan.clone()).outcome).to_string();
         assert!(told.contains("an elastic body loses nothing"), "{told}");
         for record in &swept(plan).outcome.records {
             // Not -0 either, which a table would show.

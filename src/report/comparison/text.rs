@@ -1,21 +1,20 @@
 //! What a comparison says on the terminal and in a table.
 
-use std::fmt::Write;
-
 use super::{Comparison, PeakComparison, Place};
 use crate::quantity::FrequencyUnit;
 use crate::report::number::{four_digits, scientific};
 use crate::report::table::{Cell, cells, csv_leading};
-use crate::report::words::{case, wrapped_line};
+use crate::report::text::{Column, Table, Text};
+use crate::report::words::case;
 use crate::sweep::search::peak::Peak;
 
 /// Names of cases shown before the rest is counted.
 const NAMED: usize = 10;
 
 impl Comparison {
-    /// The whole finding, as text of at most 80 columns, or what a name takes.
-    pub fn text(&self) -> String {
-        let mut text = format!("{} cases in both results\n", self.compared);
+    /// The whole finding.
+    pub fn text(&self) -> Text {
+        let mut text = Text::from(format!("{} cases in both results", self.compared));
         self.name(&mut text, "missing in the new result", &self.missing);
         self.name(&mut text, "only in the new result", &self.added);
         for (what, columns) in [
@@ -23,33 +22,33 @@ impl Comparison {
             ("only in the new result", &self.added_columns),
         ] {
             if !columns.is_empty() {
-                let line = format!("columns {what}: {}", columns.join(", "));
-                text.push_str(&wrapped_line(&line));
+                text.paragraph(format!("columns {what}: {}", columns.join(", ")));
             }
         }
         for (place, old, new) in self.statuses.iter().take(NAMED) {
-            let _ = writeln!(text, "{}: {old} before, {new} now", self.words(place));
+            text.line(format!("{}: {old} before, {new} now", self.words(place)));
         }
         if self.compared > 0 {
-            text.push_str(&self.table_of_columns());
+            text.blank();
+            text.append(self.table_of_columns());
         }
         for peak in &self.peaks {
-            let _ = writeln!(text, "{}", peak_words(self.unit, peak));
+            text.line(peak_words(self.unit, peak));
         }
         if let Some(reason) = &self.peaks_not_compared {
-            text.push_str(&wrapped_line(&format!("peaks: not compared, {reason}")));
+            text.paragraph(format!("peaks: not compared, {reason}"));
         }
         text
     }
 
-    fn table_of_columns(&self) -> String {
-        let row = |cells: [&str; 4]| {
-            let [name, largest, beyond, within] = cells;
-            format!(" {name:<21} {largest:<30} {beyond:>9}   {within:>10}\n")
-        };
-        let mut text = "\n".to_owned()
-            + &row(["column", "largest difference,", "beyond", "of these"])
-            + &row(["", "relative to the larger", "tolerance", "in bars"]);
+    fn table_of_columns(&self) -> Table {
+        let columns = [
+            Column::left(" column", 22),
+            Column::left("largest difference,\nrelative to the larger", 30),
+            Column::right("beyond\ntolerance", 9),
+            Column::right("of these\nin bars", 12),
+        ];
+        let mut table = Table::new(1, columns);
         for column in &self.columns {
             let largest = match &column.largest {
                 Some((share, place)) => format!(
@@ -60,8 +59,8 @@ impl Comparison {
                 ),
                 None => "none".to_owned(),
             };
-            let counts = [column.beyond, column.within_bars].map(|n| n.to_string());
-            text.push_str(&row([&column.name, &largest, &counts[0], &counts[1]]));
+            let [beyond, within] = [column.beyond, column.within_bars].map(|n| n.to_string());
+            table.row([format!(" {}", column.name), largest, beyond, within]);
             for (number, what) in [
                 (column.absent, "without a value in one of the two"),
                 (
@@ -70,11 +69,11 @@ impl Comparison {
                 ),
             ] {
                 if number > 0 {
-                    let _ = writeln!(text, "   {number} {what}");
+                    table.remark(format!("   {number} {what}"));
                 }
             }
         }
-        text
+        table
     }
 
     /// What axes vary of a case, in words that others follow; before a number stands `axis`.
@@ -97,16 +96,16 @@ impl Comparison {
         )
     }
 
-    fn name(&self, text: &mut String, what: &str, places: &[Place]) {
+    fn name(&self, text: &mut Text, what: &str, places: &[Place]) {
         if places.is_empty() {
             return;
         }
-        let _ = writeln!(text, "{} cases {what}:", places.len());
+        text.line(format!("{} cases {what}:", places.len()));
         for place in places.iter().take(NAMED) {
-            let _ = writeln!(text, "  {}", self.words(place));
+            text.line(format!("  {}", self.words(place)));
         }
         if places.len() > NAMED {
-            let _ = writeln!(text, "  and {} more", places.len() - NAMED);
+            text.line(format!("  and {} more", places.len() - NAMED));
         }
     }
 

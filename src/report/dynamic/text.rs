@@ -1,19 +1,19 @@
 //! What the terminal and the comments of a material block say of dynamic data.
 
-use std::fmt::Write;
-
 use super::DynamicReport;
 use crate::material::dynamic::DynamicPoint;
 use crate::material::dynamic::master_curve::MasterCurve;
 use crate::material::dynamic::shift_law::{Arrhenius, ShiftLaw, Wlf};
-use crate::quantity::{Dimension, celsius, format_human};
+use crate::quantity::{celsius, format_human};
+use crate::report::fit::relaxation_branches;
 use crate::report::number::{four_digits, scientific};
-use crate::report::words::{listed, wrapped_line};
+use crate::report::text::{Column, Table, Text};
+use crate::report::words::listed;
 
 impl DynamicReport<'_> {
-    /// What was read, how well it fits and what to know of it, in lines of at most 80 columns; ends with a line end.
-    pub fn text(&self) -> String {
-        self.lines().iter().map(|line| wrapped_line(line)).collect()
+    /// What was read, how well it fits and what to know of it.
+    pub fn text(&self) -> Text {
+        self.lines().into_iter().collect()
     }
 
     /// The same, one fact a line.
@@ -98,18 +98,24 @@ impl DynamicReport<'_> {
         lines
     }
 
-    /// The shift factors as a table of at most 80 columns; nothing without a master curve.
-    pub fn shift_table(&self) -> String {
+    /// The shift factors as a table; nothing without a master curve.
+    pub fn shift_table(&self) -> Text {
         let Some(master) = &self.made.master else {
-            return String::new();
+            return Text::default();
         };
         let vertical = master.shifts.iter().any(|shift| shift.b_t != 1.0);
         let unit = self.source.frequency_unit;
         let symbol = unit.symbol();
-        let heading = if vertical { "   vertical b_T" } else { "" };
-        let mut text = format!(
-            "Temperature    log10 a_T   std. error   points    {symbol} from      {symbol} to{heading}\n"
-        );
+        let columns = [
+            Column::right("Temperature", 11),
+            Column::right("log10 a_T", 11),
+            Column::right("std. error", 11),
+            Column::right("points", 7),
+            Column::right(format!("{symbol} from"), 8),
+            Column::right(format!("{symbol} to"), 8),
+        ];
+        let b_t = vertical.then(|| Column::right("vertical b_T", 12));
+        let mut table = Table::new(2, columns.into_iter().chain(b_t));
         for shift in &master.shifts {
             let mut isotherms = self.data.isotherms().iter();
             let is_of = |t: f64| (t - shift.temperature_k).abs() < 0.01;
@@ -119,37 +125,25 @@ impl DynamicReport<'_> {
             let omega = |point: Option<&DynamicPoint>| {
                 or_dash(point.map(|p| four_digits(unit.of(p.angular_frequency_rad_per_s))))
             };
-            let error = or_dash(shift.log10_a_t_error.map(|error| format!("{error:.4}")));
-            let b_t = vertical.then(|| format!("{:>14.4}", shift.b_t));
             // Adding zero takes the sign off a zero.
             let log10_a_t = (1e4 * shift.log10_a_t).round() / 1e4 + 0.0;
-            // Writing to a String cannot fail.
-            let _ = writeln!(
-                text,
-                "{:>11}  {log10_a_t:>11.4}  {error:>11}  {:>7}  {:>8}  {:>8}{}",
+            let cells = [
                 celsius(shift.temperature_k),
-                points.len(),
+                format!("{log10_a_t:.4}"),
+                or_dash(shift.log10_a_t_error.map(|error| format!("{error:.4}"))),
+                points.len().to_string(),
                 omega(points.first()),
                 omega(points.last()),
-                b_t.unwrap_or_default(),
-            );
+            ];
+            let b_t = vertical.then(|| format!("{:.4}", shift.b_t));
+            table.row(cells.into_iter().chain(b_t));
         }
-        text
+        table.into()
     }
 
     /// Equilibrium and branches, to be read; exact ones are in the material block.
-    pub fn branches(&self) -> String {
-        let relaxation = self.relaxation();
-        let modulus = |value| format_human(value, Dimension::Stress, 5);
-        let equilibrium = modulus(relaxation.equilibrium_modulus());
-        let mut text = format!("Equilibrium modulus: {equilibrium}\n");
-        let _ = writeln!(text, "Branch {:>18} {:>18}", "modulus", "relaxation time");
-        for (index, branch) in relaxation.branches().iter().enumerate() {
-            let time = format_human(branch.time_s, Dimension::Time, 5);
-            let modulus = modulus(branch.modulus_pa);
-            let _ = writeln!(text, "{:>6} {modulus:>18} {time:>18}", index + 1);
-        }
-        text
+    pub fn branches(&self) -> Text {
+        relaxation_branches(self.relaxation())
     }
 }
 
@@ -209,7 +203,7 @@ pub(in crate::report) fn percent(share: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::quantity::FrequencyUnit;
+    use crate::quantity::{Dimension, FrequencyUnit};
     use crate::report::dynamic::Source;
     use crate::report::dynamic::tests::{measured, source};
 
@@ -257,7 +251,7 @@ mod tests {
                 source: &source,
                 ..report
             };
-            report.text() + &report.shift_table()
+            report.text().to_string() + &report.shift_table().to_string()
         });
         let (low, high) = made.fit.window_rad_per_s;
         let hertz = |omega| format_human(FrequencyUnit::Hz.of(omega), Dimension::Frequency, 4);

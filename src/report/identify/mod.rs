@@ -13,7 +13,8 @@ use crate::report::dynamic::tables::prony;
 use crate::report::measured::columns::of_records;
 use crate::report::number::scientific;
 use crate::report::quantities;
-use crate::report::words::{listed, wrapped_line};
+use crate::report::text::{Column, Table, Text};
+use crate::report::words::listed;
 
 /// An identification and what it came to.
 pub struct IdentifyReport<'a> {
@@ -37,10 +38,9 @@ impl IdentifyReport<'_> {
         ]
     }
 
-    /// What was found, in lines of at most 80 columns; ends with a line end.
-    pub fn text(&self) -> String {
-        let lines = self.lines().into_iter();
-        lines.map(|line| wrapped_line(&line)).collect()
+    /// What was found.
+    pub fn text(&self) -> Text {
+        self.lines().into_iter().collect()
     }
 
     /// The same, one fact a line.
@@ -285,12 +285,15 @@ impl IdentifyReport<'_> {
         ))
     }
 
-    /// The unknowns with their intervals, as a table of at most 80 columns.
-    pub fn unknowns(&self) -> String {
-        let mut text = format!(
-            "{:<7}{:>14}  {:>14}  95 % interval\n",
-            "", "value", "known to"
-        );
+    /// The unknowns with their intervals.
+    pub fn unknowns(&self) -> Table {
+        let columns = [
+            Column::left("", 6),
+            Column::right("value", 13),
+            Column::right("known to", 14),
+            Column::left("95 % interval", 0),
+        ];
+        let mut table = Table::new(2, columns);
         for unknown in &self.found.unknowns {
             let value = |value: f64| format_human(value, dimension(unknown), 4);
             let (known, interval) = match unknown.is_determined {
@@ -305,13 +308,9 @@ impl IdentifyReport<'_> {
                     ("undetermined".to_owned(), interval)
                 }
             };
-            text.push_str(&format!(
-                "{:<7}{:>14}  {known:>14}  {interval}\n",
-                unknown.name,
-                value(unknown.value)
-            ));
+            table.row([unknown.name.clone(), value(unknown.value), known, interval]);
         }
-        text
+        table
     }
 }
 

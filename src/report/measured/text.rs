@@ -1,7 +1,6 @@
-//! What the terminal says of measured loops, in at most 80 columns.
+//! What the terminal says of measured loops.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
 use super::MeasuredRow;
 use super::columns::drift;
@@ -9,35 +8,41 @@ use crate::measured::drift::DriftModel;
 use crate::measured::{Estimate, Finding, MeasuredLoop, Quantity};
 use crate::quantity::{Dimension, format_human};
 use crate::report::number::{Measured, four_digits};
-use crate::report::words::wrapped_line;
+use crate::report::text::{Column, Table, Text};
 use crate::sweep::record::Status;
 
 /// Files with the same finding that are named before the rest is counted.
 const NAMED: usize = 3;
 
 /// One line a record: frequency, loss and phase with half their intervals of 95 %, cycles that count, file.
-pub fn table(rows: &[MeasuredRow]) -> String {
-    let or_dash = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
-    let mut text = format!(
-        "{:>10}   {:<20}   {:<16}   {:>8}   file\n",
-        "f / Hz", "loss / cycle", "phase / deg", "cycles"
-    );
+pub fn table(rows: &[MeasuredRow]) -> Text {
+    let columns = [
+        Column::right("f / Hz", 10),
+        Column::left("loss / cycle", 20),
+        Column::left("phase / deg", 16),
+        Column::right("cycles", 8).leaves_first(),
+        Column::left("file", 0).stays(),
+    ];
+    let mut table = Table::new(3, columns);
     for row in rows {
         let measured = row.measured.as_ref();
         let loss = row.mean(Quantity::EnergyLoss);
-        // Writing to a String cannot fail.
-        let _ = writeln!(
-            text,
-            "{:>10}   {:<20}   {:<16}   {:>8}   {}",
-            or_dash(measured.map(|m| four_digits(m.frequency.hz))),
-            or_dash(loss.map(|mean| with_error(mean, Dimension::Energy))),
-            or_dash(degrees(row)),
-            or_dash(measured.map(|m| format!("{} of {}", m.used.len(), m.cycles.len()))),
-            short(&row.file),
-        );
+        let cells = [
+            measured.map(|m| four_digits(m.frequency.hz)),
+            loss.map(|mean| with_error(mean, Dimension::Energy)),
+            degrees(row),
+            measured.map(|m| format!("{} of {}", m.used.len(), m.cycles.len())),
+            Some(short(&row.file)),
+        ];
+        table.row(cells.map(or_dash));
     }
-    let meaning = "The number after ± is half the width of the 95 % interval, from the scatter of the cycles and the noise of the samples.";
-    text + &wrapped_line(meaning)
+    let mut text = Text::from(table);
+    text.paragraph("The number after ± is half the width of the 95 % interval, from the scatter of the cycles and the noise of the samples.");
+    text
+}
+
+fn or_dash(text: Option<String>) -> String {
+    text.unwrap_or_else(|| "-".to_owned())
 }
 
 /// Phase lag and half its interval in degrees.
@@ -55,43 +60,43 @@ pub fn phase(row: &MeasuredRow) -> String {
 }
 
 /// Moduli, where there are some: by the formula, and without its bias. Both, so that the bias is seen.
-pub fn moduli(rows: &[MeasuredRow]) -> String {
-    let pascal = |mean: Option<Estimate>| {
-        mean.map_or("-".to_owned(), |mean| with_error(mean, Dimension::Stress))
-    };
-    let mut text = String::new();
+pub fn moduli(rows: &[MeasuredRow]) -> Text {
+    let pascal = |mean: Option<Estimate>| or_dash(mean.map(|m| with_error(m, Dimension::Stress)));
+    let columns = [
+        Column::right("f / Hz", 10),
+        Column::left("modulus", 7).stays(),
+        Column::left("formula", 19),
+        Column::right("bias   ", 7),
+        Column::left("without bias", 0),
+    ];
+    let mut table = Table::new(3, columns);
     for row in rows {
         let (Some(measured), Some(_)) = (&row.measured, row.mean(Quantity::LossModulus)) else {
             continue;
         };
-        if text.is_empty() {
-            text.push_str(
-                "\n    f / Hz   modulus   formula               bias      without bias\n",
-            );
-        }
-        let mut hz = four_digits(measured.frequency.hz);
-        let [storage, loss] = [
-            measured
-                .unbiased
-                .map(|u| (u.storage_bias, u.storage_modulus_pa)),
-            measured.unbiased.map(|u| (u.loss_bias, u.loss_modulus_pa)),
-        ];
-        for (name, formula, unbiased) in [
-            ("E'", Quantity::StorageModulus, storage),
-            ("E''", Quantity::LossModulus, loss),
+        let unbiased = measured.unbiased.as_ref();
+        let storage = unbiased.map(|u| (u.storage_bias, u.storage_modulus_pa));
+        let loss = unbiased.map(|u| (u.loss_bias, u.loss_modulus_pa));
+        for (hz, name, formula, unbiased) in [
+            (
+                four_digits(measured.frequency.hz),
+                "E'",
+                Quantity::StorageModulus,
+                storage,
+            ),
+            (String::new(), "E''", Quantity::LossModulus, loss),
         ] {
             let percent = |(bias, _): (f64, _)| format!("{:+.2} %", 100.0 * (bias - 1.0));
-            let _ = writeln!(
-                text,
-                "{hz:>10}   {name:<7}   {:<19}   {:>7}   {}",
+            table.row([
+                hz,
+                name.to_owned(),
                 pascal(row.mean(formula)),
-                unbiased.map_or("-".to_owned(), percent),
+                or_dash(unbiased.map(percent)),
                 pascal(unbiased.map(|(_, modulus)| modulus)),
-            );
-            hz.clear();
+            ]);
         }
     }
-    text
+    table.into()
 }
 
 /// The end of a path, as much as a line has room for.
@@ -130,7 +135,7 @@ fn angle(degrees: f64, error: Option<f64>) -> String {
 }
 
 /// What was told apart, and what is to be known: one line for each kind, whatever the number of files.
-pub fn findings(rows: &[MeasuredRow]) -> String {
+pub fn findings(rows: &[MeasuredRow]) -> Text {
     let mut kinds: BTreeMap<&str, Vec<(&str, String)>> = BTreeMap::new();
     for row in rows {
         let failed = row.reason.iter().map(|reason| ("failed", reason.clone()));
@@ -141,30 +146,29 @@ pub fn findings(rows: &[MeasuredRow]) -> String {
             kinds.entry(kind).or_default().push((&row.file, sentence));
         }
     }
-    let mut text = String::new();
+    let mut text = Text::default();
     for files in kinds.values() {
         for (file, sentence) in files.iter().take(NAMED) {
-            let warning = format!("warning: {}: {sentence}", short(file));
-            text.push_str(&wrapped_line(&warning));
+            text.paragraph(format!("warning: {}: {sentence}", short(file)));
         }
         if files.len() > NAMED {
-            let _ = writeln!(text, "  the like of {} more files", files.len() - NAMED);
+            text.line(format!("  the like of {} more files", files.len() - NAMED));
         }
     }
     text
 }
 
 /// Of every file that has no mean its name, whole, and why.
-pub fn without_mean(rows: &[MeasuredRow]) -> String {
-    let without = rows.iter().filter(|row| row.status() != Status::Converged);
-    let lines = without.map(|row| {
+pub fn without_mean(rows: &[MeasuredRow]) -> Text {
+    let mut text = Text::default();
+    for row in rows.iter().filter(|row| row.status() != Status::Converged) {
         let changes = |finding: &&Finding| matches!(finding, Finding::NotStabilised { .. });
         let why = row.findings().find(changes).map(Finding::to_string);
         let why = row.reason.clone().or(why);
         let why = why.unwrap_or_else(|| "no cycle counts in a mean".to_owned());
-        format!("{}: {}: {why}\n", row.file, row.status().name())
-    });
-    lines.collect()
+        text.line(format!("{}: {}: {why}", row.file, row.status().name()));
+    }
+    text
 }
 
 /// What was done with a single record, in sentences.
