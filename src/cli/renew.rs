@@ -42,8 +42,8 @@ pub(super) fn run(flags: &RenewFlags) -> Result<Ended, Failure> {
             .map_err(|error| Failure::Run(format!("cannot write {}: {error}", path.display())))?;
     }
     match names.is_empty() {
-        true => print(&format!("Nothing was stale. {STUBS}")),
-        false => print(&format!("Renewed: {}. {STUBS}", names.join(", "))),
+        true => print(&format!("Nothing was stale. {STUBS}").into()),
+        false => print(&format!("Renewed: {}. {STUBS}", names.join(", ")).into()),
     }
 }
 

@@ -261,20 +261,19 @@ fn value_name(value: &Json) -> (String, String) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input::document::kind::{Choice, Scalar, quantity};
-    use crate::input::document::row::{List, Others, Required, Row, Rows};
-    use crate::input::keys::{rows, table};
+    use crate::input::document::kind::{Choice, Number, quantity};
+    use crate::input::document::row::{List, Others, Required, Row, Rows, rows, table};
     use crate::quantity::Dimension::Length;
 
     rows! { _:
         /// Which of the shapes it is; what every one of them needs is listed below, under its name.
         FIGURE: Row<Choice<u8>, Required> = "shape", Choice(&[("disc", 0), ("ring", 1), ("square", 2)]), Required;
         /// The radius of the disc, or the one at the outer edge of the ring, which is the larger of its two.
-        OUTER: Row<Scalar, Required> = "outer", quantity(Length).above_zero(), Required;
+        OUTER: Row<Number, Required> = "outer", quantity(Length).above_zero(), Required;
         /// The radius at the inner edge of the ring, which is the smaller of its two, and may be as small as nothing.
-        INNER: Row<Scalar, Required> = "inner", quantity(Length).not_negative(), Required;
+        INNER: Row<Number, Required> = "inner", quantity(Length).not_negative(), Required;
         /// The length of one side of the square, which is that of the others as well, since they are all alike.
-        SIDE: Row<Scalar, Required> = "side", quantity(Length).above_zero(), Required;
+        SIDE: Row<Number, Required> = "side", quantity(Length).above_zero(), Required;
     }
 
     const KEYS: List = &[&FIGURE];
@@ -284,11 +283,13 @@ mod tests {
     static TWO: Rows = Rows {
         means: " Two shapes.",
         keys: KEYS,
+        block: &[],
         others: Others::ByWord(&FIGURE, &[("disc", &DISC), ("square", &SQUARE)]),
     };
     static THREE: Rows = Rows {
         means: " Three shapes.",
         keys: KEYS,
+        block: &[],
         others: Others::ByWord(
             &FIGURE,
             &[("disc", &DISC), ("ring", &RING), ("square", &SQUARE)],
@@ -323,7 +324,7 @@ mod tests {
     #[test]
     fn no_part_is_called_by_a_number() {
         for (file, kind) in FileKind::NAMES {
-            let schema: Json = serde_json::from_str(&text(kind)).unwrap();
+            let schema: Json = serde_json::from_str(&text(*kind)).unwrap();
             let names = schema["$defs"].as_object().unwrap().keys();
             // The limits of numbers are in the names of axes.
             for name in names.filter(|name| !name.starts_with("over-")) {

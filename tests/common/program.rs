@@ -6,7 +6,6 @@ use std::fs;
 use std::path::Path;
 
 use assert_cmd::Command;
-use tempfile::TempDir;
 
 /// The program, without what the surroundings might ask of it.
 pub fn program() -> Command {
@@ -40,21 +39,4 @@ mean = "10 N"
 amplitude = "5 N"
 "#;
     format!("{question}{rest}")
-}
-
-/// Runs this text as a file of `sweep` or `simulate` and expects it to be refused as bad input, with nothing written.
-pub fn refused(folder: &TempDir, command: &str, text: &str, expected: &[&str]) {
-    let file = write(folder, "bad.toml", text);
-    let out = folder.path().join("out");
-    let assert = program()
-        .args([command, &file, "--out"])
-        .arg(&out)
-        .assert()
-        .code(2)
-        .stdout("");
-    let stderr = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
-    for text in expected {
-        assert!(stderr.contains(text), "{text:?} is missing in:\n{stderr}");
-    }
-    assert!(!out.exists(), "what is refused has left a folder");
 }

@@ -2,7 +2,7 @@
 
 #![cfg(feature = "cli")]
 
-use crate::program::{self, program, write};
+use crate::program::{program, write};
 use crate::segments;
 use std::fs;
 use std::path::Path;
@@ -36,13 +36,6 @@ steps = 50
 [solver]
 springs = 100
 "#;
-
-/// Runs a sweep file with one replacement made in it and expects it to be refused as bad input, with nothing written.
-fn refused(from: &str, to: &str, expected: &[&str]) {
-    let folder = TempDir::new().unwrap();
-    assert!(SMALL.contains(from), "{from}");
-    program::refused(&folder, "sweep", &SMALL.replace(from, to), expected);
-}
 
 #[test]
 fn a_sweep_prints_its_table_and_leaves_every_file() {
@@ -165,111 +158,6 @@ fn the_resolved_sweep_is_a_sweep_file_with_the_same_results() {
     }
 }
 
-#[test]
-fn an_unknown_key_is_shown_with_its_place_and_the_key_that_was_meant() {
-    refused(
-        "radius =",
-        "raduis =",
-        &["bad.toml:8:1", "raduis", "radius"],
-    );
-    refused("[drive]", "[drive]\nspeed = 3", &["bad.toml:11:1", "speed"]);
-}
-
-#[test]
-fn a_missing_key_is_named_in_full_with_an_example() {
-    refused(
-        "radius = \"10 mm\"",
-        "",
-        &["indenter.radius", "bad.toml:6:1", "radius = \"10 mm\""],
-    );
-    refused(
-        "[indenter]\nshape = \"sphere\"\nradius = \"10 mm\"",
-        "",
-        &["indenter"],
-    );
-}
-
-#[test]
-fn a_wrong_unit_names_what_is_expected() {
-    refused(
-        "\"10 mm\"",
-        "\"10 N\"",
-        &["bad.toml:8:10", "a force", "a length"],
-    );
-    refused("\"10 mm\"", "\"10\"", &["bad.toml:8:10", "unit"]);
-    refused("\"10 mm\"", "\"10 parsec\"", &["bad.toml:8:10", "parsec"]);
-}
-
-#[test]
-fn nonsense_numbers_are_refused() {
-    for nonsense in ["nan", "inf", "1e400", "\"1e400 mm\"", "\"nan mm\"", "\"\""] {
-        refused("\"10 mm\"", nonsense, &["bad.toml:8:10"]);
-    }
-    refused("\"10 mm\"", "\"-10 mm\"", &["bad.toml:8:10", "above zero"]);
-    refused("steps = 50", "steps = 5", &["bad.toml:18:9"]);
-    refused("steps = 50", "tolerance = 0.0", &["bad.toml:18:13"]);
-}
-
-#[test]
-fn a_negative_modulus_is_refused_where_it_stands() {
-    let block = "poisson_ratio = 0.4\n[material.relaxation]\nmodulus = \"shear\"\nequilibrium = \"1 GPa\"\n\
-                 branches = [{ modulus = \"-1 MPa\", time = \"1 s\" }, { modulus = \"1 MPa\", time = \"0 s\" }]";
-    refused(
-        "library = \"pmma\"",
-        block,
-        &["bad.toml:8:25", "above zero", "bad.toml:8:79"],
-    );
-}
-
-#[test]
-fn an_empty_sweep_is_refused() {
-    let list = "[\"0.004 rad/s\", \"0.008 rad/s\", \"0.02 rad/s\"]";
-    refused(list, "[]", &["bad.toml:15:21", "empty"]);
-    refused(
-        list,
-        "{ from = \"1 rad/s\", to = \"0.1 rad/s\", points = 5 }",
-        &["bad.toml:15:46", "ends before it begins"],
-    );
-    refused(
-        list,
-        "{ from = \"1 rad/s\", to = \"2 rad/s\", points = 0 }",
-        &["bad.toml:15"],
-    );
-    refused(list, "[\"1 rad/s\", \"1 rad/s\"]", &["listed twice"]);
-    refused(list, "[\"0 rad/s\"]", &["above zero"]);
-    refused(list, "[\"1 N\"]", &["bad.toml:15:22", "rad/s"]);
-}
-
-#[test]
-fn a_load_that_never_presses_is_refused_with_both_places() {
-    refused(
-        "\"10 N\"",
-        "\"-5 N\"",
-        &[
-            "bad.toml:11:8",
-            "the amplitude",
-            "never touches",
-            "pressed down",
-        ],
-    );
-}
-
-#[test]
-fn materials_without_a_stabilised_contact_are_refused_with_the_reason() {
-    let with = |block: &str| format!("poisson_ratio = 0.4\n{block}");
-    refused(
-        "library = \"pmma\"",
-        &with("[material.kelvin_voigt]\nspring = \"1 MPa\"\ntime = \"1 s\""),
-        &["instantaneous", "bad.toml:5"],
-    );
-    refused(
-        "library = \"pmma\"",
-        &with("[material.maxwell]\nmodulus = \"1 MPa\"\ntime = \"1 s\""),
-        &["fluid", "bad.toml:5"],
-    );
-    refused("\"pmma\"", "\"pma\"", &["bad.toml:4:11", "pmma"]);
-}
-
 /// A fractional material over four decades; the keys of its model alone are left to say.
 fn fractional(model: &str) -> String {
     format!(
@@ -329,46 +217,6 @@ fn a_fractional_material_becomes_a_series_that_the_resolved_file_holds() {
 }
 
 #[test]
-fn a_fractional_material_that_cannot_be_is_refused_at_its_place() {
-    let library = "library = \"pmma\"";
-    for fluid in ["\"springpot\"", "\"maxwell\"\nsecond_exponent = 0.2"] {
-        refused(library, &fractional(fluid), &["fluid", "zener", "simulate"]);
-    }
-    let wrong = |from: &str, to: &str, words: &[&str]| {
-        let block = fractional("\"zener\"\nequilibrium = \"1 MPa\"");
-        assert!(block.contains(from));
-        refused(library, &block.replace(from, to), words);
-    };
-    wrong("0.5", "1.5", &["exponent", "at most 1"]);
-    wrong(
-        "\"10 rad/s\"",
-        "\"1e-4 rad/s\"",
-        &["band", "lowest frequency first"],
-    );
-    wrong(
-        "0.5",
-        "0.99999",
-        &["200 branches", "narrow the band", "accuracy"],
-    );
-    wrong("equilibrium = \"1 MPa\"", "", &["equilibrium"]);
-    wrong(
-        "equilibrium",
-        "second_exponent = 0.1\nequilibrium",
-        &["second_exponent"],
-    );
-    refused(
-        library,
-        &fractional("\"maxwell\"\nsecond_exponent = 0.6"),
-        &["second exponent"],
-    );
-    wrong(
-        "[material.fractional]",
-        "measured = [1, 2]\n[material.fractional]",
-        &["measured"],
-    );
-}
-
-#[test]
 fn segments_beside_a_sweep_are_told_of_both_commands() {
     let folder = TempDir::new().unwrap();
     let segments = r#"segments = [{ kind = "step", to = "10 N", duration = "5 s" }]"#;
@@ -384,15 +232,6 @@ fn segments_beside_a_sweep_are_told_of_both_commands() {
             .stderr(contains("`contact-dma simulate ").and(contains("`contact-dma sweep ")))
             .stderr(contains("unknown key").not());
     }
-}
-
-#[test]
-fn several_mistakes_are_reported_at_once() {
-    refused(
-        "radius = \"10 mm\"\n\n[drive]\nmean = \"10 N\"",
-        "radius = \"10 N\"\n\n[drive]\nmaen = \"10 N\"",
-        &["a length", "maen", "write `mean`"],
-    );
 }
 
 #[test]
@@ -429,14 +268,6 @@ fn an_unreadable_file_and_an_unwritable_folder_say_so() {
         .code(2)
         .stderr(contains("/no/such/file.toml"));
     let file = write(&folder, "small.toml", SMALL);
-    let binary = folder.path().join("binary.toml");
-    fs::write(&binary, [0xff, 0xfe, 0x00]).unwrap();
-    program()
-        .arg("sweep")
-        .arg(&binary)
-        .assert()
-        .code(2)
-        .stderr(contains("UTF-8"));
     // A file where the folder should be: unwritable even for root.
     program()
         .args(["sweep", &file, "--out"])

@@ -44,24 +44,6 @@ fn the_second_cycle_of_every_frequency_is_a_result_and_says_what_it_is() {
 }
 
 #[test]
-fn a_cycle_by_its_number_of_a_search_is_refused_where_it_is_written() {
-    let folder = TempDir::new().unwrap();
-    let file = write(
-        &folder,
-        "second.toml",
-        &pmma_sweep(&format!("{THREE}[cycle]\nat_cycle = 2\n")),
-    );
-    let out = folder.path().join("out");
-    let mut command = program();
-    command.args(["sweep", &file, "--out"]).arg(&out);
-    let assert = command.assert().code(2);
-    assert
-        .stderr(contains("needs `cycle.method = \"march\"`"))
-        .stderr(contains("at_cycle = 2"));
-    assert!(!out.exists());
-}
-
-#[test]
 fn a_history_has_a_table_of_its_cycles() {
     let folder = TempDir::new().unwrap();
     let segments = r#"

@@ -432,63 +432,6 @@ fn histories_materials_and_comparisons_have_captions_too() {
 }
 
 #[test]
-fn wrong_values_are_refused_at_their_place_before_anything_is_computed() {
-    let folder = TempDir::new().unwrap();
-    for (table, parts) in [
-        (
-            "loops = [\"2 rad/s\"]",
-            ["outside the sweep", "1.000e-3 rad/s to 1.000 rad/s"],
-        ),
-        ("loops = []", ["1 to 8 loops", "leave it out"]),
-        ("loops = [\"1 Hz\"]", ["outside the sweep", "1.000 rad/s"]),
-        ("width = \"85\"", ["figures.width", "a length"]),
-        ("width = \"85 m\"", ["between 20 mm and 1 m", "85 mm"]),
-        ("width = \"20 mm\"", ["no room for its text", "font_size"]),
-        (
-            "width = \"85 mm\"\ncolumn = \"one\"",
-            ["only one of", "remove all but one"],
-        ),
-        ("column = \"on\"", ["did you mean \"one\"", "write"]),
-        (
-            "height = \"25 mm\"\nfont_size = 12",
-            ["no room for its text", "smaller `font_size`"],
-        ),
-        ("font_size = \"8 pt\"", ["figures.font_size", "a number"]),
-        ("font_size = 100", ["between 4 and 36", "font_size = 8"]),
-        (
-            "formats = [\"eps\"]",
-            ["figures.formats[0]", "\"svg\", \"png\" or \"pdf\""],
-        ),
-        ("formats = []", ["has 0 entries", "leave it out"]),
-        (
-            "formats = [\"svg\", \"svg\"]",
-            ["listed twice", "every entry once"],
-        ),
-        ("dpi = 10", ["figures.dpi", "from 30 to 2400"]),
-        (
-            "width = \"1 m\"\ndpi = 2400",
-            ["pixels long", "`dpi` of at most"],
-        ),
-        ("axes = \"normal\"", ["figures.axes", "normalised"]),
-        ("titles = \"no\"", ["figures.titles", "titles = false"]),
-        (
-            "widht = \"85 mm\"",
-            ["did you mean `width`", "write `width`"],
-        ),
-    ] {
-        let file = sweep_file(&folder, &format!("[figures]\n{table}\n"));
-        let out = folder.path().join("out");
-        let run = program().args(["sweep", &file, "--out"]).arg(&out).assert();
-        let run = run.code(2).stderr(contains("sweep.toml:"));
-        for part in parts {
-            let error = String::from_utf8_lossy(&run.get_output().stderr).into_owned();
-            assert!(error.contains(part), "{part} is not in:\n{error}");
-        }
-        assert!(!out.exists(), "{table}");
-    }
-}
-
-#[test]
 fn what_has_no_elastic_contact_to_normalise_by_is_refused() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("sweeps/two-asperities.toml");
     let folder = TempDir::new().unwrap();

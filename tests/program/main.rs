@@ -41,9 +41,9 @@ mod page;
 mod paths;
 mod periodic;
 mod refined_sweep;
+mod refused;
 mod renew;
 mod reproduce;
-
 mod simulate;
 mod sweep_figures;
 mod tabulated_material;

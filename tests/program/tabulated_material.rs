@@ -226,111 +226,52 @@ fn a_sweep_takes_its_material_from_a_table_beside_its_file_and_shows_the_misfit(
 }
 
 #[test]
-fn a_table_that_cannot_be_used_is_refused_at_its_place() {
-    let good = csv(MaterialFunction::Creep);
-    let first = good.lines().nth(1).unwrap();
-    let falling = csv(MaterialFunction::Relaxation)
-        .replace("relaxation_modulus_pa", "creep_compliance_per_pa");
-    let rising = good.replace("creep_compliance_per_pa", "relaxation_modulus_pa");
-    let cases: [(&str, String, &[&str]); 10] = [
-        ("creep", String::new(), &["data.csv", "the table is empty"]),
-        (
-            "creep",
-            format!("time_s,creep_compliance_per_pa\n{first}\n"),
-            &["too few samples, 1", "at least 4"],
-        ),
-        (
-            "creep",
-            good.replace("time_s", "seconds"),
-            &["data.csv:1:1", "no column `time_s`"],
-        ),
-        (
-            "creep",
-            good.replace("\n1,", "\n0.5,"),
-            &["data.csv:12:1", "row 11", "must increase"],
-        ),
-        (
-            "creep",
-            good.replace("\n1,", "\ninf,"),
-            &["data.csv:12:1", "not a finite number"],
-        ),
-        (
-            "creep",
-            good.replace("\n1,", "\n1,-"),
-            &["data.csv:12:3", "greater than zero"],
-        ),
-        (
-            "creep",
-            good.replace("\n1,", "\n1,2,"),
-            &["data.csv:12:1", "3 cells"],
-        ),
-        (
-            "creep",
-            falling,
-            &["falls by", "the other quantity", "relaxation"],
-        ),
-        ("relaxation", rising, &["rises by", "no passive material"]),
-        (
-            "relaxation",
-            good.clone(),
-            &["no column `relaxation_modulus_pa`", "creep"],
-        ),
-    ];
+fn a_table_or_a_number_that_no_material_has_is_refused_by_a_fit() {
     let folder = TempDir::new().unwrap();
-    for (quantity, text, expected) in cases {
-        write(folder.path(), "data.csv", &text);
-        let run = |arguments: &[&str]| {
-            let assert = program()
-                .current_dir(folder.path())
-                .args(arguments)
-                .assert()
-                .code(2)
-                .stdout("");
-            let stderr = String::from_utf8(assert.get_output().stderr.clone()).unwrap();
-            for words in expected {
-                assert!(stderr.contains(words), "{words:?} is missing in:\n{stderr}");
-            }
-        };
-        run(&[
-            "material",
-            "fit",
-            "data.csv",
-            "--quantity",
-            quantity,
-            "--modulus",
-            "shear",
-            "--poisson-ratio",
-            "0.4",
-        ]);
-        let sweep = TABLE
-            .replace("data/creep.csv", "data.csv")
-            .replace("\"creep\"", &format!("\"{quantity}\""));
-        write(
-            folder.path(),
-            "sweep.toml",
-            &format!("title = \"x\"\n{sweep}{REST}"),
-        );
-        run(&["sweep", "sweep.toml"]);
-    }
-    write(
-        folder.path(),
-        "sweep.toml",
-        &format!("title = \"x\"\n{TABLE}{REST}"),
-    );
-    program()
-        .current_dir(folder.path())
-        .args(["sweep", "sweep.toml"])
-        .assert()
-        .code(2)
-        .stderr(contains("sweep.toml:7:8").and(contains("cannot read `data/creep.csv`")));
-    write(folder.path(), "data.csv", &good);
-    program()
-        .current_dir(folder.path())
-        .args(["material", "fit", "data.csv", "--quantity", "creep"])
-        .args(["--modulus", "shear", "--poisson-ratio", "0.7"])
-        .assert()
-        .code(2)
-        .stderr(contains("Poisson ratio is 0.7"));
+    let fit = |text: &str, poisson_ratio: &str| {
+        write(folder.path(), "data.csv", text);
+        program()
+            .current_dir(folder.path())
+            .args(["material", "fit", "data.csv", "--quantity", "creep"])
+            .args(["--modulus", "shear", "--poisson-ratio", poisson_ratio])
+            .assert()
+            .code(2)
+            .stdout("")
+    };
+    let good = csv(MaterialFunction::Creep);
+    fit(&good, "0.7").stderr(contains("Poisson ratio is 0.7"));
+    let mistaken = good.replace("\n1,", "\n0.5,");
+    fit(&mistaken, "0.4").stderr(contains("--> data.csv:12:1").and(contains("must increase")));
+}
+
+/// A sweep of this material under a sphere, or why there is none.
+fn sweep_of(material: &str) -> Result<SweepPlan, String> {
+    let text = format!("title = \"x\"\n{material}{REST}");
+    let plan = sweep_file::plan(&Document::parse("sweep.toml", &text).unwrap());
+    plan.map_err(|why| why.render(Styling::Plain))
+}
+
+#[test]
+fn a_fluid_among_tables_is_a_solid_where_the_file_says_so() {
+    let values: Vec<String> = times()
+        .iter()
+        .map(|t| format!("{:.3e}", 1e-9 * (1.0 + t / 30.0)))
+        .collect();
+    let table = format!("times = {:?}\nvalues = [{}]", times(), values.join(", "));
+    let fluid = TABLE.replace("file = \"data/creep.csv\"", &table);
+    assert!(sweep_of(&fluid).unwrap_err().contains("flow = false"));
+    assert!(sweep_of(&format!("{fluid}flow = false\n")).is_ok());
+}
+
+#[test]
+fn the_window_and_the_alternatives_of_a_series_are_read() {
+    let series = "[material.relaxation]\nmodulus = \"shear\"\nequilibrium = 1e6\nbranches = []\n";
+    let other = "[[material.alternative]]\nequilibrium = 9e5\nbranches = []\n";
+    let window = "[material]\npoisson_ratio = 0.3\nmeasured = [\"0.1 s\", \"1000 s\"]\n";
+    let plan = sweep_of(&format!("{window}{series}{other}")).unwrap();
+    let origin = &plan.base.contact.material.origin;
+    assert_eq!(origin.measured_window_s, Some((0.1, 1000.0)));
+    assert_eq!(origin.alternatives.len(), 1);
 }
 
 /// A relaxation modulus that has not levelled off when the test ends, with five digits.
@@ -371,82 +312,6 @@ fn the_window_and_the_alternatives_of_a_fit_survive_the_resolved_file() {
         material.relaxation()
     );
     assert_eq!(resolved_text(&again), resolved);
-}
-
-/// What is printed where a sweep file with this `[material]` is refused.
-fn refusal(material: &str) -> String {
-    let folder = TempDir::new().unwrap();
-    let fluid: String = times()
-        .iter()
-        .map(|t| format!("{t},{:.3e}\n", 1e-9 * (1.0 + t / 30.0)))
-        .collect();
-    let fluid = format!("time_s,creep_compliance_per_pa\n{fluid}");
-    write(folder.path(), "data/creep.csv", &fluid);
-    write(
-        folder.path(),
-        "sweep.toml",
-        &format!("title = \"x\"\n{material}{REST}"),
-    );
-    let document = Document::read(&folder.path().join("sweep.toml")).unwrap();
-    let refused = sweep_file::plan(&document).map(drop);
-    refused.map_or_else(
-        |problems| problems.render(Styling::Plain),
-        |()| String::new(),
-    )
-}
-
-#[test]
-fn a_table_that_flows_is_refused_with_advice_that_can_be_followed() {
-    let text = refusal(TABLE);
-    assert!(
-        text.contains("this material is a fluid") && text.contains("flow = false"),
-        "{text}"
-    );
-    assert_eq!(refusal(&format!("{TABLE}flow = false\n")), "");
-    assert!(refusal(&format!("{TABLE}flow = true\n")).contains("is a fluid"));
-    assert!(refusal(&format!("{TABLE}flow = \"no\"\n")).contains("`material.table.flow`"));
-    let own = "[material]\npoisson_ratio = 0.3\n[material.maxwell]\nmodulus = 1e9\ntime = 1\n";
-    assert!(!refusal(own).contains("flow"));
-}
-
-#[test]
-fn the_window_and_the_alternatives_of_a_series_are_read_and_bad_ones_are_shown() {
-    let series = "[material.relaxation]\nmodulus = \"shear\"\nequilibrium = 1e6\nbranches = []\n";
-    let with = |window: &str, after: &str| {
-        refusal(&format!(
-            "[material]\npoisson_ratio = 0.3\n{window}\n{series}{after}"
-        ))
-    };
-    let other = "[[material.alternative]]\nequilibrium = 9e5\nbranches = []\n";
-    assert_eq!(with("measured = [\"0.1 s\", \"1000 s\"]", other), "");
-    for bad in ["[1]", "[2, 1]", "[0, 1]", "[1, 2, 3]"] {
-        let text = with(&format!("measured = {bad}"), "");
-        assert!(
-            text.contains("the first and the last time of the test"),
-            "{text}"
-        );
-    }
-    let library = refusal("[material]\nlibrary = \"pmma\"\nmeasured = [1, 2]\n");
-    assert!(
-        library.contains("says itself when it was measured"),
-        "{library}"
-    );
-    let wrong = with(
-        "",
-        "[[material.alternative]]\nequilibrium = -1\nbranches = []\n",
-    );
-    assert!(
-        wrong.contains("`material.alternative[0].equilibrium` cannot be negative"),
-        "{wrong}"
-    );
-    let zener = "[material]\npoisson_ratio = 0.3\n[material.zener]\nspring = 1e9\nkelvin_spring = 1e8\ntime = 1\n";
-    assert!(refusal(&format!("{zener}{other}")).contains("alternative"));
-    // What to write in place of an element of strength zero.
-    let no_spring = refusal(&zener.replace("spring = 1e9", "spring = 0"));
-    assert!(
-        !no_spring.contains("branch that is not there"),
-        "{no_spring}"
-    );
 }
 
 #[test]
@@ -803,47 +668,9 @@ fn a_temperature_beyond_the_isotherms_is_warned_of_in_a_resolved_file_too() {
     assert!(refused.contains("lowest first"), "{refused}");
 }
 
-/// Isotherms of a simple solid from -30 to 90 °C, of which the coldest lie decades beyond one another, with loss moduli down to 1e-42 Pa.
-const ISOTHERMS_APART: &str = include_str!("isotherms_apart.csv");
-
 #[test]
-fn data_that_no_series_follows_are_refused_with_the_isotherms_that_are_apart() {
+fn a_time_of_nothing_is_shown() {
     let folder = TempDir::new().unwrap();
-    fs::write(folder.path().join("dma.csv"), ISOTHERMS_APART).unwrap();
-    let refused = program()
-        .current_dir(&folder)
-        .args(FIT_DYNAMIC)
-        .args(["--out", "out"])
-        .assert()
-        .failure();
-    let text = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
-    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    for part in [
-        "misses the data by",
-        "-20 °C and -10 °C",
-        "have no moduli in common",
-        "leave out",
-    ] {
-        assert!(words.contains(part), "{part}\n{text}");
-    }
-    assert!(!folder.path().join("out").exists());
-}
-
-#[test]
-fn a_frequency_of_nothing_is_refused_and_a_time_of_nothing_is_shown() {
-    let folder = TempDir::new().unwrap();
-    let table =
-        "frequency_hz,storage_modulus_pa,loss_modulus_pa\n1e-308,1e6,1e5\n1,2e6,1e5\n10,3e6,1e5\n";
-    fs::write(folder.path().join("dma.csv"), table).unwrap();
-    let mut fit = program();
-    fit.current_dir(&folder)
-        .args(FIT_DYNAMIC)
-        .assert()
-        .failure();
-    let refused = fit.output().unwrap().stderr;
-    let refused = String::from_utf8_lossy(&refused).into_owned();
-    let words = refused.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(words.contains("span 309 decades"), "{refused}");
     for time in ["1e-307", "5e-324", "1e307"] {
         let series = format!(
             "[material]\npoisson_ratio = 0.3\n[material.relaxation]\nmodulus = \"shear\"\nequilibrium = 1e6\n\
@@ -861,34 +688,6 @@ fn a_frequency_of_nothing_is_refused_and_a_time_of_nothing_is_shown() {
             "{time}: {shown:?}"
         );
     }
-}
-
-#[test]
-fn what_is_wrong_with_dynamic_data_is_shown_at_its_place() {
-    let folder = TempDir::new().unwrap();
-    write(folder.path(), "dma.csv", &dynamic_csv());
-    let refused = |sets: &[&str]| dynamic_plan(folder.path(), sets).unwrap_err();
-    let shift = refused(&["material.dynamic.shift=wfl"]);
-    assert!(shift.contains("did you mean \"wlf\"?"), "{shift}");
-    let missing = refused(&["material.dynamic.file=none.csv"]);
-    assert!(missing.contains("cannot read `"), "{missing}");
-    let far = refused(&["material.temperature=-150 °C"]);
-    assert!(
-        far.contains("-150 °C") && far.contains("material.temperature"),
-        "{far}"
-    );
-    let bad = dynamic_csv().replacen("1e-1,", "-1e-1,", 1);
-    write(folder.path(), "dma.csv", &bad);
-    let bad = refused(&[]);
-    assert!(
-        bad.contains("dma.csv:2") && bad.contains("the file is named here"),
-        "{bad}"
-    );
-    let library = refusal("[material]\nlibrary = \"pmma\"\ntemperature = \"25 °C\"\n");
-    assert!(
-        library.contains("known at one temperature alone"),
-        "{library}"
-    );
 }
 
 /// Isotherms of a solid of two branches from 5 to 45 °C under a WLF law, exact to eight digits, as a table; and the law's log10 a_T

@@ -1,0 +1,123 @@
+//! Wrong inputs with all that is said of them: tests/refused/KIND/NAME.toml, or a file of data, beside it what it names, and in
+//! NAME.stderr the messages. `RENEW=1 cargo test --test program refused` writes these anew, to be read before they are committed.
+
+use std::collections::BTreeSet;
+use std::fmt::Display;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+use crate::input_keys::assert_current;
+use crate::program::program;
+use contact_dma::identify;
+use contact_dma::input::diagnostic::{Diagnostics, Styling};
+use contact_dma::input::document::Document;
+use contact_dma::input::{
+    dynamic, identify_file, loop_file, scenario_file, setup_file, sweep_file,
+};
+use contact_dma::material::ModulusKind;
+use contact_dma::simulation::Simulation;
+use contact_dma::sweep::case::Setup;
+use tempfile::TempDir;
+
+/// What a file of a folder is read as, up to where it is refused.
+type Read = fn(&Path) -> Result<(), String>;
+
+/// By its folder: how the name of a wrong file ends, of data anyhow, and what reads it.
+const KINDS: [(&str, &str, Read); 6] = [
+    ("sweep", "toml", |file| {
+        let plan = sweep_file::plan(&document(file)?).map_err(rendered)?;
+        Setup::new(plan).map(drop).map_err(line)
+    }),
+    ("simulate", "toml", |file| {
+        let plan = scenario_file::plan(&document(file)?).map_err(rendered)?;
+        Simulation::new(plan).map(drop).map_err(line)
+    }),
+    ("identify", "toml", |file| {
+        let plan = identify_file::plan(&document(file)?).map_err(rendered)?;
+        let identified = identify::identify(&plan, &AtomicBool::new(false));
+        identified
+            .map(drop)
+            .map_err(|why| line(format!("{}: {why}", file.display())))
+    }),
+    ("setup", "toml", |file| {
+        let setup = setup_file::setup(&document(file)?);
+        setup.map(drop).map_err(rendered)
+    }),
+    ("loop", "", |file| {
+        loop_file::read(file).map(drop).map_err(rendered)
+    }),
+    ("dynamic", "", |file| {
+        let read = dynamic::read(&[file.to_owned()], None, ModulusKind::Longitudinal);
+        read.map(drop).map_err(rendered)
+    }),
+];
+
+fn document(file: &Path) -> Result<Document, String> {
+    Document::read(file).map_err(rendered)
+}
+
+fn rendered(why: Diagnostics) -> String {
+    why.render(Styling::Plain)
+}
+
+fn line(why: impl Display) -> String {
+    format!("error: {why}\n")
+}
+
+/// The wrong files in a folder of `tests/refused`.
+pub fn files(kind: &str, extension: &str) -> BTreeSet<PathBuf> {
+    let entries = fs::read_dir(Path::new("tests/refused").join(kind)).unwrap();
+    let paths = entries.map(|entry| entry.unwrap().path());
+    paths
+        .filter(|path| {
+            let found = path.extension().unwrap();
+            found == extension || (extension.is_empty() && found != "stderr")
+        })
+        .collect()
+}
+
+#[test]
+fn every_wrong_file_is_refused_with_the_messages_beside_it() {
+    for (kind, extension, read) in KINDS {
+        for file in files(kind, extension) {
+            let Err(told) = read(&file) else {
+                panic!("{} is not refused", file.display());
+            };
+            let told = told.replace(&format!("tests/refused/{kind}/"), "");
+            assert_current(file.with_extension("stderr"), &told);
+        }
+        for message in files(kind, "stderr") {
+            let refused = files(kind, extension).into_iter();
+            let mut messages = refused.map(|file| file.with_extension("stderr"));
+            assert!(
+                messages.any(|of| of == message),
+                "{message:?} is of no file"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_program_prints_the_messages_exits_with_2_and_writes_nothing() {
+    for (command, name) in [
+        ("sweep", "radius-above-zero-1"),
+        ("sweep", "springs-cannot-treat-layer"),
+        ("simulate", "no-column-load-n"),
+        ("identify", "all-measurements-one-frequency-time"),
+    ] {
+        let folder = TempDir::new().unwrap();
+        let out = folder.path().join("out");
+        let path = Path::new("tests/refused").join(command);
+        let message = fs::read_to_string(path.join(format!("{name}.stderr")));
+        program()
+            .current_dir(&path)
+            .args([command, &format!("{name}.toml"), "--out"])
+            .arg(&out)
+            .assert()
+            .code(2)
+            .stdout("")
+            .stderr(message.unwrap());
+        assert!(!out.exists(), "{name}");
+    }
+}
