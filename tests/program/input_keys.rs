@@ -120,9 +120,9 @@ fn every_example_names_its_schema_and_validates() {
 fn what_a_schema_can_see_of_a_wrong_file_it_refuses_as_the_program_does() {
     let right = pmma_sweep("[sweep]\nangular_frequency = [\"0.01 rad/s\"]\n");
     assert_eq!(problems(FileKind::Sweep, &right), "");
-    let kinds = FileKind::NAMES.map(|(name, kind)| match kind {
-        FileKind::Scenario => ("simulate", kind),
-        _ => (name, kind),
+    let kinds = FileKind::NAMES.iter().map(|(name, kind)| match kind {
+        FileKind::Scenario => ("simulate", *kind),
+        _ => (*name, *kind),
     });
     let mut seen = String::new();
     for (folder, kind) in kinds {
