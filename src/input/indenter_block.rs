@@ -1,17 +1,16 @@
 //! The `[indenter]` block: what each shape is made of, and how it is read.
 
-use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::Arc;
 
 use super::data_file;
 use super::diagnostic::Diagnostics;
 use super::document::kind::{
-    Array, Choice, Describe, Integer, Number, Table, Tables, Text, number, pair, quantity,
+    Array, Choice, Describe, Number, Table, Tables, Text, number, pair, quantity,
 };
 use super::document::reader::TableReader;
 use super::document::row::{Optional, Or, Required, Row, Rows, choice, rows, table};
-use super::document::{Located, plain};
+use super::document::{Located, block, plain};
 use super::field_file;
 use super::field_file::Field;
 use super::keys;
@@ -27,10 +26,6 @@ use crate::material::Material;
 use crate::quantity::Dimension::{Angle, Length};
 use crate::sweep::plan::resolved;
 
-/// Cells per side of a rough surface.
-const ROUGH_CELLS: RangeInclusive<usize> = 8..=4096;
-/// TOML has signed integers of 64 bits.
-const SEEDS: RangeInclusive<usize> = 0..=i64::MAX as usize;
 const LENGTH: Number = quantity(Length).above_zero();
 const POSITION: &str = "write one for x and one for y: [\"1 um\", \"0 um\"]";
 
@@ -54,17 +49,7 @@ choice! {
     /// Paraboloids side by side.
     Asperities = "asperities": ASPERITIES_KEYS;
     /// A random self-affine surface.
-    Rough = "rough": &[
-        &ROUGH_SIDE,
-        &ROUGH_SPACING,
-        &HURST_EXPONENT,
-        &RMS_HEIGHT,
-        &ROLL_OFF_WAVELENGTH,
-        &CUT_OFF_WAVELENGTH,
-        &SEED,
-        &SPHERE_RADIUS,
-        &EDGE,
-    ];
+    Rough = "rough" of Roughness: &[];
 }
 
 rows! { _:
@@ -159,25 +144,6 @@ rows! { ASPERITY_KEYS:
 }
 
 static ASPERITY: Rows = table(" One asperity.", ASPERITY_KEYS);
-
-rows! { _:
-    /// Points per side.
-    ROUGH_SIDE: Row<Integer, Required> = "cells", Integer(ROUGH_CELLS), Required;
-    /// Distance between points.
-    ROUGH_SPACING: Row<Number, Required> = "spacing", LENGTH, Required;
-    /// Hurst exponent of the self-affine spectrum.
-    HURST_EXPONENT: Row<Number, Required> = "hurst_exponent", number("0.8"), Required;
-    /// Root mean square height.
-    RMS_HEIGHT: Row<Number, Required> = "rms_height", LENGTH, Required;
-    /// Wavelength above which the spectrum is flat; left out: no such limit.
-    ROLL_OFF_WAVELENGTH: Row<Number, Optional> = "roll_off_wavelength", LENGTH, Optional;
-    /// Shortest wavelength.
-    CUT_OFF_WAVELENGTH: Row<Number, Required> = "cut_off_wavelength", LENGTH, Required;
-    /// Seed of the random phases: the same seed gives the same surface.
-    SEED: Row<Integer, Required> = "seed", Integer(SEEDS), Required;
-    /// Radius of a sphere under the roughness; left out: the surface is nominally flat.
-    SPHERE_RADIUS: Row<Number, Optional> = "sphere_radius", LENGTH, Optional;
-}
 
 /// A shape, or nothing where a problem was reported.
 type Made = Option<Arc<dyn Indenter>>;
@@ -322,29 +288,16 @@ impl Block<'_> {
     }
 
     fn rough(&mut self, shape: &Located<Shape>) -> Made {
-        let table = &mut self.0;
-        let (cells, spacing_m) = (table.value(&ROUGH_SIDE), table.value(&ROUGH_SPACING));
-        let (hurst, rms_height_m) = (table.read(&HURST_EXPONENT), table.value(&RMS_HEIGHT));
-        let roll_off = table.value(&ROLL_OFF_WAVELENGTH);
-        let cut_off = table.value(&CUT_OFF_WAVELENGTH);
-        let (seed, sphere) = (table.value(&SEED), table.value(&SPHERE_RADIUS));
-        let edge = table.value(&EDGE);
-        let hurst = hurst?;
-        let roughness = Roughness {
-            cells: cells?,
-            spacing_m: spacing_m?,
-            hurst_exponent: hurst.value,
-            rms_height_m: rms_height_m?,
-            roll_off_wavelength_m: roll_off?,
-            cut_off_wavelength_m: cut_off?,
-            seed: seed? as u64,
-            sphere_radius_m: sphere?,
-            edge: edge?,
+        let hurst = self.0.place_of("hurst_exponent");
+        let roughness: Roughness = block::read_from(&mut self.0, None)?;
+        let map = match (roughness.map(), hurst) {
+            (Err(refused @ IndenterError::Hurst { .. }), Some(place)) => {
+                self.0.problems().at(&place, refused.to_string());
+                return None;
+            }
+            (other, _) => other,
         };
-        match roughness.map() {
-            refused @ Err(IndenterError::Hurst { .. }) => self.made(&hurst, refused),
-            other => self.made(shape, other),
-        }
+        self.made(shape, map)
     }
 
     /// What is made of the bytes under `file`, once they are known to be those of `sha256`.

@@ -4,13 +4,12 @@ use std::sync::Arc;
 
 use super::diagnostic::Diagnostics;
 use super::document::reader::TableReader;
-use super::document::{Document, plain};
+use super::document::{Document, block, plain};
 use super::indenter_block;
 use super::keys::material::POISSON_RATIO;
 use super::keys::setup::{
-    APPROACH_AT_TOUCH, AREA_FUNCTION, BIAS, CONTACT, DAMPING, EPSILON, FRAME_COMPLIANCE,
-    INSTRUMENT, MASS, RADIUS_FROM, RadiusFrom, SETUP_INDENTER, SETUP_TITLE, STIFFNESS,
-    THERMAL_DRIFT, TIME_LAG,
+    AREA_FUNCTION, BIAS, CONTACT, EPSILON, INSTRUMENT, RADIUS_FROM, RadiusFrom, SETUP_INDENTER,
+    SETUP_TITLE,
 };
 use crate::indenter::Indenter;
 use crate::measured::moduli::{Contact, Radius};
@@ -31,7 +30,9 @@ pub struct Setup {
 pub fn setup(document: &Document) -> Result<Setup, Diagnostics> {
     document.read_whole(|root| {
         let title = root.value(&SETUP_TITLE);
-        let corrections = root.table_or(&INSTRUMENT, Corrections::default(), instrument);
+        let corrections = root.table_or(&INSTRUMENT, Corrections::default(), |t| {
+            block::read(t, None)
+        });
         let indenter_at = root.key_location(&SETUP_INDENTER);
         let indenter = root.table_or(&SETUP_INDENTER, None, |table| {
             indenter_block::read(table).map(Some)
@@ -63,23 +64,6 @@ pub fn setup(document: &Document) -> Result<Setup, Diagnostics> {
                     }),
             },
         })
-    })
-}
-
-fn instrument(mut table: TableReader<'_>) -> Option<Corrections> {
-    let frame = table.value(&FRAME_COMPLIANCE);
-    let (mass, damping) = (table.value(&MASS), table.value(&DAMPING));
-    let (stiffness, lag) = (table.value(&STIFFNESS), table.value(&TIME_LAG));
-    let (drift, touch) = (table.value(&THERMAL_DRIFT), table.value(&APPROACH_AT_TOUCH));
-    table.finish();
-    Some(Corrections {
-        frame_compliance_m_per_n: frame?,
-        mass_kg: mass?,
-        damping_n_s_per_m: damping?,
-        stiffness_n_per_m: stiffness?,
-        time_lag_s: lag?,
-        thermal_drift_m_per_s: drift?,
-        approach_at_touch_m: touch?,
     })
 }
 

@@ -22,31 +22,40 @@ use std::ops::RangeInclusive;
 use num_complex::Complex;
 use rustfft::FftPlannerScalar;
 
-use super::{HeightMap, IndenterError, MapEdge, MapQuantity, Setting, Value, positive_length};
+use super::{HeightMap, IndenterError, MapEdge, MapQuantity, positive_length};
+use crate::block;
+use crate::quantity::Dimension;
+use crate::quantity::block::Block as _;
+use crate::quantity::key::{Kind, number, quantity};
 
 /// Cells per side.
 pub(super) const CELLS: RangeInclusive<usize> = 8..=4096;
+const LENGTH: Kind = Kind::Number(quantity(Dimension::Length).above_zero());
 
-/// What makes a rough surface.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Roughness {
-    /// Cells per side of the square map.
-    pub cells: usize,
-    /// Side of a cell.
-    pub spacing_m: f64,
-    /// H, from 0 to 1.
-    pub hurst_exponent: f64,
-    /// Root mean square of the heights about their mean.
-    pub rms_height_m: f64,
-    /// Wavelength above which the spectrum is flat; without it the surface is self-affine up to its side.
-    pub roll_off_wavelength_m: Option<f64>,
-    /// Shortest wavelength, at least two cells; eight resolve its contact.
-    pub cut_off_wavelength_m: f64,
-    pub seed: u64,
-    /// Radius of the sphere on which the roughness lies; without it the surface is nominally flat.
-    pub sphere_radius_m: Option<f64>,
-    /// What is beyond the border.
-    pub edge: MapEdge,
+block! {
+    /// A random self-affine surface.
+    #[derive(Copy)]
+    pub struct Roughness in "rough" {
+        /// Points per side.
+        cells: usize => "cells", Kind::Integer(CELLS);
+        /// Distance between points.
+        spacing_m: f64 => "spacing", LENGTH;
+        /// Hurst exponent of the self-affine spectrum.
+        hurst_exponent: f64 => "hurst_exponent", Kind::Number(number("0.8"));
+        /// Root mean square height.
+        rms_height_m: f64 => "rms_height", LENGTH;
+        /// Shortest wavelength.
+        cut_off_wavelength_m: f64 => "cut_off_wavelength", LENGTH;
+        /// Seed of the random phases: the same seed gives the same surface.
+        seed: u64 => "seed", Kind::Integer(0..=i64::MAX as usize);
+        /// What lies outside the map: unknown, so the contact must stay within; nothing (`rim`); or periodic repetitions of the map
+        /// (`periodic`), under a prescribed load.
+        edge: MapEdge = MapEdge::Unknown => "edge", Kind::Word(MapEdge::WORDS);
+        /// Wavelength above which the spectrum is flat; left out: no such limit.
+        roll_off_wavelength_m: Option<f64> = None => "roll_off_wavelength", LENGTH;
+        /// Radius of a sphere under the roughness; left out: the surface is nominally flat.
+        sphere_radius_m: Option<f64> = None => "sphere_radius", LENGTH;
+    }
 }
 
 impl Roughness {
@@ -68,26 +77,7 @@ impl Roughness {
         }
         let (spacing_m, heights) = ((spacing_m, spacing_m), MapQuantity::Height);
         let map = HeightMap::new((n, n), spacing_m, heights_m, heights, self.edge)?;
-        Ok(map.made_from("rough", self.parameters()))
-    }
-
-    fn parameters(&self) -> Vec<Setting> {
-        let mut parameters = vec![
-            Setting::new("cells", Value::Integer(self.cells as u64)),
-            Setting::length("spacing", self.spacing_m),
-            Setting::new("hurst_exponent", self.hurst_exponent),
-            Setting::length("rms_height", self.rms_height_m),
-            Setting::length("cut_off_wavelength", self.cut_off_wavelength_m),
-            Setting::new("seed", Value::Integer(self.seed)),
-            self.edge.parameter(),
-        ];
-        for (key, length_m) in [
-            ("roll_off_wavelength", self.roll_off_wavelength_m),
-            ("sphere_radius", self.sphere_radius_m),
-        ] {
-            parameters.extend(length_m.map(|length_m| Setting::length(key, length_m)));
-        }
-        parameters
+        Ok(map.made_from(Self::NAME, self.settings().collect()))
     }
 }
 

@@ -13,25 +13,30 @@ use num_complex::Complex;
 use serde::{Deserialize, Serialize};
 
 use super::Signal;
+use crate::block_with_defaults;
 use crate::cycle::Harmonics;
+use crate::quantity::Dimension;
+use crate::quantity::key::{Kind, quantity};
 
-/// What is known of an instrument; zero where it adds nothing.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct Corrections {
-    /// Of frame and mount (m/N).
-    pub frame_compliance_m_per_n: f64,
-    /// Moving mass (kg).
-    pub mass_kg: f64,
-    /// Of the suspension (N s/m).
-    pub damping_n_s_per_m: f64,
-    /// Of the suspension (N/m).
-    pub stiffness_n_per_m: f64,
-    /// By which the channel of the approach is late (s).
-    pub time_lag_s: f64,
-    /// Rate at which temperature moves the approach (m/s).
-    pub thermal_drift_m_per_s: f64,
-    /// Reading of the approach at first touch (m).
-    pub approach_at_touch_m: f64,
+block_with_defaults! {
+    /// Contributions of the instrument to load and approach, removed from every harmonic.
+    #[derive(Copy, Serialize, Deserialize)]
+    pub struct Corrections in "instrument" {
+        /// Compliance of frame and mount: the approach is the displacement minus compliance times load.
+        frame_compliance_m_per_n: f64 = 0.0 => "frame_compliance", Kind::Number(quantity(Dimension::FrameCompliance).not_negative());
+        /// Moving mass between force sensor and contact.
+        mass_kg: f64 = 0.0 => "mass", Kind::Number(quantity(Dimension::Mass).not_negative());
+        /// Damping of the suspension of the moving part.
+        damping_n_s_per_m: f64 = 0.0 => "damping", Kind::Number(quantity(Dimension::Damping).not_negative());
+        /// Stiffness of the suspension; displacements are measured from its rest position.
+        stiffness_n_per_m: f64 = 0.0 => "stiffness", Kind::Number(quantity(Dimension::Stiffness).not_negative());
+        /// Delay of the approach channel relative to the load channel; negative if it is earlier.
+        time_lag_s: f64 = 0.0 => "time_lag", Kind::Number(quantity(Dimension::Time));
+        /// Thermal drift rate of the approach, if it was measured.
+        thermal_drift_m_per_s: f64 = 0.0 => "thermal_drift", Kind::Number(quantity(Dimension::Speed));
+        /// Reading of the approach at first touch.
+        approach_at_touch_m: f64 = 0.0 => "approach_at_touch", Kind::Number(quantity(Dimension::Length));
+    }
 }
 
 impl Corrections {

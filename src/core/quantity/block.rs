@@ -166,6 +166,19 @@ impl Field for usize {
     }
 }
 
+impl Field for u64 {
+    fn written(&self, _: &Kind) -> Option<Value> {
+        Some(Value::Integer(*self))
+    }
+
+    fn of(value: Value) -> Option<Self> {
+        match value {
+            Value::Integer(integer) => Some(integer),
+            _ => None,
+        }
+    }
+}
+
 impl Field for bool {
     fn written(&self, _: &Kind) -> Option<Value> {
         Some((*self).into())

@@ -411,7 +411,7 @@ pub(in crate::input) use rows;
 /// A key whose word decides which others its table has: the enum of its words, its row, and the keys that each word brings.
 macro_rules! choice {
     ($(#[doc = $means:literal])+ $row:ident = $key:literal, $name:ident, $others:ident:
-        $( $(#[doc = $about:literal])+ $variant:ident = $word:literal: $keys:expr $(, $ways:expr)?; )+) => {
+        $( $(#[doc = $about:literal])+ $variant:ident = $word:literal $(of $block:ty)?: $keys:expr $(, $ways:expr)?; )+) => {
         contact_dma_core::words! {
             $(#[doc = $means])+
             pub(crate) enum $name { $( $(#[doc = $about])+ $variant = $word ),+ }
@@ -424,11 +424,13 @@ macro_rules! choice {
             ($word, &$crate::input::document::row::Rows {
                 means: concat!($($about),+),
                 keys: $keys,
-                block: &[],
+                block: $crate::input::document::row::choice!(@block $($block)?),
                 others: $crate::input::document::row::choice!(@ways $($ways)?),
             })
         ),+]);
     };
+    (@block) => { &[] };
+    (@block $block:ty) => { <$block as $crate::quantity::block::Block>::KEYS };
     (@ways) => { $crate::input::document::row::Others::None };
     (@ways $ways:expr) => { $crate::input::document::row::Others::OneList($ways) };
 }

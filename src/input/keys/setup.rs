@@ -1,35 +1,14 @@
 //! Keys of a setup file: the instrument and the contact of measured loops.
 
 use super::material::POISSON_RATIO;
-use crate::input::document::kind::{
-    Array, Boolean, Choice, Number, Table, Text, list, number, quantity,
-};
+use crate::input::document::block::rows_of;
+use crate::input::document::kind::{Array, Boolean, Choice, Number, Table, Text, list, number};
 use crate::input::document::row::{Optional, Or, Row, Rows, rows, table};
-use crate::quantity::Dimension::{Damping, FrameCompliance, Length, Mass, Speed, Stiffness, Time};
+use crate::measured::Corrections;
 use crate::quantity::key::Limits;
 use contact_dma_core::words;
 
-rows! { INSTRUMENT_KEYS:
-    /// Compliance of frame and mount: the approach is the displacement minus compliance times load.
-    FRAME_COMPLIANCE: Row<Number, Or<f64>> = "frame_compliance", quantity(FrameCompliance).not_negative(), Or(0.0);
-    /// Moving mass between force sensor and contact.
-    MASS: Row<Number, Or<f64>> = "mass", quantity(Mass).not_negative(), Or(0.0);
-    /// Damping of the suspension of the moving part.
-    DAMPING: Row<Number, Or<f64>> = "damping", quantity(Damping).not_negative(), Or(0.0);
-    /// Stiffness of the suspension; displacements are measured from its rest position.
-    STIFFNESS: Row<Number, Or<f64>> = "stiffness", quantity(Stiffness).not_negative(), Or(0.0);
-    /// Delay of the approach channel relative to the load channel; negative if it is earlier.
-    TIME_LAG: Row<Number, Or<f64>> = "time_lag", quantity(Time), Or(0.0);
-    /// Thermal drift rate of the approach, if it was measured.
-    THERMAL_DRIFT: Row<Number, Or<f64>> = "thermal_drift", quantity(Speed), Or(0.0);
-    /// Reading of the approach at first touch.
-    APPROACH_AT_TOUCH: Row<Number, Or<f64>> = "approach_at_touch", quantity(Length), Or(0.0);
-}
-
-static INSTRUMENT_TABLE: Rows = table(
-    " Contributions of the instrument to load and approach, removed from every harmonic.",
-    INSTRUMENT_KEYS,
-);
+static INSTRUMENT_TABLE: Rows = rows_of::<Corrections>();
 
 words! {
     /// Where the contact radius comes from.
