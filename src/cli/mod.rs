@@ -148,7 +148,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Material(command) => material::run(&command, format, data_format),
         Command::Completions { shell } => {
             let mut text = Vec::new();
-            clap_complete::generate(shell, &mut Arguments::command(), "contact-dma", &mut text);
+            clap_complete::generate(shell, &mut shown_commands(), "contact-dma", &mut text);
             write_out(&String::from_utf8_lossy(&text))
         }
     };
@@ -159,6 +159,16 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Ok(Ended::Interrupted) => ExitCode::from(interruption::EXIT_CODE),
         Err(failure) => report(failure),
     }
+}
+
+/// The command line without what the help hides.
+fn shown_commands() -> clap::Command {
+    let all = Arguments::command();
+    let shown = all.get_subcommands().filter(|inner| !inner.is_hide_set());
+    clap::Command::new("contact-dma")
+        .version(env!("CARGO_PKG_VERSION"))
+        .args(all.get_arguments().cloned())
+        .subcommands(shown.cloned())
 }
 
 /// Prints a failure; returns its exit code.

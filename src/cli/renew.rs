@@ -5,10 +5,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use clap::{ArgAction, Args, CommandFactory};
+use clap::{ArgAction, Args};
 
-use super::arguments::Arguments;
-use super::{Ended, Failure, print};
+use super::{Ended, Failure, print, shown_commands};
 use crate::input::keys::{self, FileKind};
 use crate::input::{key_reference, schema};
 use crate::report::quantities::{CYCLES, HISTORY, SWEEP, reference};
@@ -175,9 +174,9 @@ fn class(shape: &str) -> String {
 /// The commands and what each does, as a table.
 fn commands() -> String {
     let mut rows = String::new();
-    for command in Arguments::command().get_subcommands() {
+    for command in shown_commands().get_subcommands() {
         let below: Vec<_> = command.get_subcommands().collect();
-        if below.is_empty() && !command.is_hide_set() {
+        if below.is_empty() {
             rows.push_str(&command_row("", command));
         }
         for inner in below {

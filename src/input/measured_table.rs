@@ -6,10 +6,7 @@ use crate::drive::{Control, HarmonicDrive};
 use crate::identify::ApproachZero;
 use crate::identify::data::{Datum, Number, TableColumns};
 use crate::measured::statistics::NORMAL;
-use crate::quantity::Dimension::{
-    Angle, AngularFrequency, Energy, Force, Frequency, Length, Stress,
-};
-use crate::sweep::record::error_bars::Quantity;
+use crate::quantity::Dimension::{AngularFrequency, Force, Frequency, Length};
 
 const ANGULAR: Column = Column::new(
     &["angular_frequency"],
@@ -36,50 +33,42 @@ impl Measured {
 
 /// A number under its names.
 macro_rules! measured {
-    ($number:expr, $dimension:ident, $first:literal $(, $name:literal)*) => {
+    ($number:expr, $first:literal $(, $name:literal)*) => {
         Measured {
             number: $number,
-            value: Column::new(&[$first $(, $name)*], $dimension, $first),
-            error: Column::new(&[concat!($first, "_error") $(, concat!($name, "_error"))*], $dimension, concat!($first, "_error")),
+            value: Column::new(&[$first $(, $name)*], $number.dimension(), $first),
+            error: Column::new(&[concat!($first, "_error") $(, concat!($name, "_error"))*], $number.dimension(), concat!($first, "_error")),
             standard_error: Column::new(
                 &[concat!($first, "_standard_error") $(, concat!($name, "_standard_error"))*],
-                $dimension,
+                $number.dimension(),
                 concat!($first, "_standard_error"),
             ),
         }
     };
 }
 
-const LOSS: Number = Number::OfCycle(Quantity::EnergyLoss);
-const PHASE: Number = Number::OfCycle(Quantity::PhaseLag);
-
 const APPROACH_AMPLITUDE: Measured = measured!(
     Number::ApproachAmplitude,
-    Length,
     "approach_amplitude",
     "depth_amplitude"
 );
-const LOAD_AMPLITUDE: Measured = measured!(
-    Number::LoadAmplitude,
-    Force,
-    "load_amplitude",
-    "force_amplitude"
-);
+const LOAD_AMPLITUDE: Measured =
+    measured!(Number::LoadAmplitude, "load_amplitude", "force_amplitude");
 
 #[rustfmt::skip]
 static MEASURED: [Measured; 12] = [
-    measured!(LOSS, Energy, "energy_loss", "loss", "loss_energy", "dissipated_energy", "energy_dissipation"),
-    measured!(PHASE, Angle, "phase_lag", "phase", "phase_angle", "loss_angle"),
-    measured!(Number::OfCycle(Quantity::StorageModulus), Stress, "storage_modulus"),
-    measured!(Number::OfCycle(Quantity::LossModulus), Stress, "loss_modulus"),
-    measured!(Number::OfCycle(Quantity::ApproachMin), Length, "approach_min", "min_approach", "depth_min", "min_depth", "minimum_depth"),
-    measured!(Number::OfCycle(Quantity::ApproachMax), Length, "approach_max", "max_approach", "depth_max", "max_depth", "maximum_depth"),
+    measured!(Number::EnergyLoss, "energy_loss", "loss", "loss_energy", "dissipated_energy", "energy_dissipation"),
+    measured!(Number::PhaseLag, "phase_lag", "phase", "phase_angle", "loss_angle"),
+    measured!(Number::StorageModulus, "storage_modulus"),
+    measured!(Number::LossModulus, "loss_modulus"),
+    measured!(Number::ApproachMin, "approach_min", "min_approach", "depth_min", "min_depth", "minimum_depth"),
+    measured!(Number::ApproachMax, "approach_max", "max_approach", "depth_max", "max_depth", "maximum_depth"),
     APPROACH_AMPLITUDE,
     LOAD_AMPLITUDE,
-    measured!(Number::OfCycle(Quantity::ContactRadiusMin), Length, "contact_radius_min"),
-    measured!(Number::OfCycle(Quantity::ContactRadiusMax), Length, "contact_radius_max"),
-    measured!(Number::OfCycle(Quantity::PeakPressureMin), Stress, "peak_pressure_min"),
-    measured!(Number::OfCycle(Quantity::PeakPressureMax), Stress, "peak_pressure_max"),
+    measured!(Number::ContactRadiusMin, "contact_radius_min"),
+    measured!(Number::ContactRadiusMax, "contact_radius_max"),
+    measured!(Number::PeakPressureMin, "peak_pressure_min"),
+    measured!(Number::PeakPressureMax, "peak_pressure_max"),
 ];
 
 /// Columns that only the table of an analysis of records has.
@@ -196,15 +185,13 @@ fn quantities(
     let prescribed = prescribed(control).number;
     let why_not = |number: Number| match number {
         number if number == prescribed => Some(PRESCRIBED),
-        Number::OfCycle(Quantity::StorageModulus | Quantity::LossModulus)
-            if has(LOSS) || has(PHASE) =>
+        Number::StorageModulus | Number::LossModulus
+            if has(Number::EnergyLoss) || has(Number::PhaseLag) =>
         {
             Some(DERIVED)
         }
-        LOSS if has(PHASE) && has(response) => Some(LOSS_TWICE),
-        Number::OfCycle(Quantity::ApproachMin | Quantity::ApproachMax) if !has_zero => {
-            Some(NO_ZERO)
-        }
+        Number::EnergyLoss if has(Number::PhaseLag) && has(response) => Some(LOSS_TWICE),
+        Number::ApproachMin | Number::ApproachMax if !has_zero => Some(NO_ZERO),
         _ => None,
     };
     let (mut data, mut set_aside) = (Vec::new(), Vec::new());
@@ -432,6 +419,13 @@ mod tests {
     }
 
     #[test]
+    fn the_first_name_of_a_number_is_that_of_its_column() {
+        for own in &MEASURED {
+            assert_eq!(own.value.name_in_si(), own.number.column());
+        }
+    }
+
+    #[test]
     fn columns_are_read_in_their_units_with_errors_and_gaps() {
         let text = "frequency_hz,energy_loss_uJ,energy_loss_error_uJ,phase_lag_deg,status,drive_mean,drive_amplitude\n\
                     1,2,0.1,,converged,10,5\n2,,,,failed,10,5\n4,3,,9,converged,11,4\n";
@@ -444,7 +438,7 @@ mod tests {
         assert!(near(data[0].value, 2e-6) && near(data[0].error.unwrap(), 1e-7));
         assert_eq!((data.len(), data[1].error), (3, None));
         assert!(near(data[2].value, std::f64::consts::PI / 20.0));
-        assert_eq!(data[2].number, PHASE);
+        assert_eq!(data[2].number, Number::PhaseLag);
         assert_eq!(
             (columns.read.len(), &columns.unread[..]),
             (6, &["status".to_owned()][..])
@@ -455,9 +449,18 @@ mod tests {
     fn common_words_are_read_and_every_other_heading_is_kept_for_the_report() {
         let text = "Frequency (Hz);Loss (uJ);Phase (deg);Max depth (um);Fase fault (deg);Remark\n1;2;9;30;None;a\n2;2;None;31;1;b\n";
         let (data, columns) = under_load(text).unwrap();
-        let approach = Number::OfCycle(Quantity::ApproachMax);
+        let approach = Number::ApproachMax;
         let numbers: Vec<Number> = data.iter().map(|datum| datum.number).collect();
-        assert_eq!(numbers, [LOSS, PHASE, approach, LOSS, approach]);
+        assert_eq!(
+            numbers,
+            [
+                Number::EnergyLoss,
+                Number::PhaseLag,
+                approach,
+                Number::EnergyLoss,
+                approach
+            ]
+        );
         let rows: Vec<usize> = data.iter().map(|datum| datum.row).collect();
         assert_eq!(rows, [1, 1, 1, 2, 2]);
         assert_eq!(columns.unread, ["Fase fault (deg)", "Remark"]);
@@ -483,7 +486,7 @@ mod tests {
         assert!((both / own.hypot(0.015 / NORMAL) - 1.0).abs() < 1e-12);
         assert_eq!(of_both[0], data[0]);
         let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
-        assert!(data[0].number == PHASE && near(data[0].error.unwrap(), 5e-4));
+        assert!(data[0].number == Number::PhaseLag && near(data[0].error.unwrap(), 5e-4));
         assert_eq!(data[1].number, Number::ApproachAmplitude);
         assert!(near(data[1].error.unwrap(), 1e-8 / NORMAL));
         let aside: Vec<&str> = columns
@@ -503,11 +506,8 @@ mod tests {
         // The same numbers in a table of one's own: standard deviations where they are named so.
         let own = text.replace("points_per_cycle", "points");
         let (data, _) = under_load(&own).unwrap();
-        assert!(data[0].number == PHASE && near(data[0].error.unwrap(), 5e-4));
-        assert!(
-            data.iter()
-                .any(|datum| datum.number == Number::OfCycle(Quantity::ApproachMax))
-        );
+        assert!(data[0].number == Number::PhaseLag && near(data[0].error.unwrap(), 5e-4));
+        assert!(data.iter().any(|datum| datum.number == Number::ApproachMax));
     }
 
     #[test]

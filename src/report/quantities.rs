@@ -4,6 +4,7 @@
 
 use super::table::{Cell, csv};
 use crate::cycle::Harmonic;
+use crate::measured::Quantity as OfLoop;
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::simulation::cycles::{CycleNumbers, HistoryCycle};
 use crate::simulation::errors::RowErrors;
@@ -214,20 +215,20 @@ pub fn of_name(name: &str) -> Option<&'static Column<CaseRecord>> {
 
 /// A column with an error bar.
 macro_rules! barred {
-    ($name:literal, $quantity:ident, ($heading:literal, $dimension:expr), $meaning:literal $(,)?) => {
+    ($quantity:ident, $heading:literal, $meaning:literal $(,)?) => {
         OfCase::new(
-            $name,
+            Quantity::$quantity.column(),
             |r| of_result(r, |c| Quantity::$quantity.of(c)),
             $meaning,
         )
-        .called($heading, $dimension)
+        .called($heading, Quantity::$quantity.dimension())
         .with_error(|r| {
             let errors = r.result.as_ref()?.errors.as_ref()?;
             errors.of(Quantity::$quantity)
         })
-        .compared(match $dimension {
+        .compared(match Quantity::$quantity.dimension() {
             Some(_) => Relatively,
-            None::<Dimension> => Absolutely,
+            None => Absolutely,
         })
     };
 }
@@ -241,7 +242,7 @@ type OfCase = Column<CaseRecord>;
 type OfMoment = Column<Moment>;
 
 use Compared::{Absolutely, Relatively};
-use Dimension::{Angle, Energy, Length, Stress};
+use Dimension::{Energy, Length, Stress};
 
 /// Which case it is; what has an error bar; what has none, and how the numbers came about.
 #[rustfmt::skip]
@@ -252,7 +253,7 @@ pub static SWEEP: &[OfCase] = &[
         .called("frequency", Some(Dimension::Frequency)),
     OfCase::new("drive_mean", |r| r.drive_mean.into(), "mean of the prescribed load (N) or approach (m)"),
     OfCase::new("drive_amplitude", |r| r.drive_amplitude.into(), "amplitude of the prescribed load (N) or approach (m)"),
-    barred!("energy_loss_j", EnergyLoss, ("energy loss per cycle", Some(Energy)),
+    barred!(EnergyLoss, "energy loss per cycle",
         "area of the closed loop, ∮ W dδ over one cycle, from its Fourier coefficients")
         .in_cases("loss per cycle"),
     OfCase::new("energy_loss_material_error_j", |r| r.energy_loss_material_error_j().into(),
@@ -261,24 +262,24 @@ pub static SWEEP: &[OfCase] = &[
          `energy_loss_error_j`; empty for a material without them")
         .called("uncertainty of the loss from the material", Some(Energy))
         .in_cases("uncertainty from the material"),
-    barred!("phase_lag_rad", PhaseLag, ("phase lag of the approach", Some(Angle)),
+    barred!(PhaseLag, "phase lag of the approach",
         "by how much the first harmonic of the approach lags behind that of the load, θ₁ − φ₁")
         .in_cases("phase lag"),
-    barred!("storage_modulus_pa", StorageModulus, ("storage modulus from the loop", Some(Stress)),
+    barred!(StorageModulus, "storage modulus from the loop",
         "what instrumented indentation reads from the loop, (1 − ν²) W₁ cos(θ₁ − φ₁)/(2 a₀ δ₁), less what a deformable indenter yields; with a \
          bulk modulus K, Young's modulus 9KG/(3K + G) of the shear modulus G that belongs to W₁ exp(i(θ₁ − φ₁))/(2 a₀ δ₁); empty where the indenter leaves the surface")
         .in_cases("E′"),
-    barred!("loss_modulus_pa", LossModulus, ("loss modulus from the loop", Some(Stress)),
+    barred!(LossModulus, "loss modulus from the loop",
         "the same with the sine")
         .in_cases("E″"),
-    barred!("approach_min_m", ApproachMin, ("smallest approach", Some(Length)),
+    barred!(ApproachMin, "smallest approach",
         "smallest approach of the cycle"),
-    barred!("approach_max_m", ApproachMax, ("largest approach", Some(Length)),
+    barred!(ApproachMax, "largest approach",
         "largest approach of the cycle")
         .in_cases("largest approach"),
-    barred!("contact_radius_min_m", ContactRadiusMin, ("smallest contact radius", Some(Length)),
+    barred!(ContactRadiusMin, "smallest contact radius",
         "smallest contact radius of the cycle: that of the circle of the contact's area"),
-    barred!("contact_radius_max_m", ContactRadiusMax, ("largest contact radius", Some(Length)),
+    barred!(ContactRadiusMax, "largest contact radius",
         "largest contact radius of the cycle")
         .in_cases("largest radius"),
     OfCase::new("contact_duty", |r| of_result(r, |c| Some(c.contact_duty.part)),
@@ -290,14 +291,14 @@ pub static SWEEP: &[OfCase] = &[
     OfCase::new("tabor_parameter", |r| of_result(r, |c| c.tabor_parameter),
         "(R w²/(E*² z₀³))^(1/3) of an indenter that is attracted, with |1/C*| at the frequency for E*; empty without `[adhesion]`")
         .called("Tabor's parameter", None).compared(Relatively),
-    barred!("peak_pressure_min_pa", PeakPressureMin, ("smallest peak pressure", Some(Stress)),
+    barred!(PeakPressureMin, "smallest peak pressure",
         "smallest over the cycle of the largest pressure in the contact; empty where that is unbounded, under a cone or a flat punch"),
-    barred!("peak_pressure_max_pa", PeakPressureMax, ("largest peak pressure", Some(Stress)),
+    barred!(PeakPressureMax, "largest peak pressure",
         "the largest over the cycle")
         .in_cases("largest pressure"),
-    barred!("harmonic_2", Harmonic2, ("second harmonic of the approach, relative", None),
+    barred!(Harmonic2, "second harmonic of the approach, relative",
         "amplitude of the second harmonic of the approach relative to the first, δ₂/δ₁"),
-    barred!("harmonic_3", Harmonic3, ("third harmonic of the approach, relative", None), "δ₃/δ₁"),
+    barred!(Harmonic3, "third harmonic of the approach, relative", "δ₃/δ₁"),
     OfCase::of_branch("branch_{}_loss_j", |r, k| of_result(r, |c| Some(c.branches.get(k)?.energy_loss_j)),
         "what the dashpot of each branch of the creep compliance dissipates per cycle, from the memory alone, shortest \
          retardation time first (`summary.json` lists the times)")
@@ -313,9 +314,9 @@ pub static SWEEP: &[OfCase] = &[
     OfCase::new("polygon_loss_j", |r| of_result(r, |c| Some(c.analysis.polygon_loss_j)),
         "area of the polygon through the N samples of the loop, a cross-check that is low by (N/2π) sin(2π/N) for an ellipse")
         .called("area of the polygon through the samples", Some(Energy)).compared(Relatively),
-    OfCase::new("harmonic_4", |r| of_result(r, |c| c.analysis.approach_harmonic(4)), "δ₄/δ₁")
+    OfCase::new(OfLoop::Harmonic4.column(), |r| of_result(r, |c| c.analysis.approach_harmonic(4)), "δ₄/δ₁")
         .called("fourth harmonic of the approach, relative", None).compared(Absolutely),
-    OfCase::new("harmonic_5", |r| of_result(r, |c| c.analysis.approach_harmonic(5)), "δ₅/δ₁")
+    OfCase::new(OfLoop::Harmonic5.column(), |r| of_result(r, |c| c.analysis.approach_harmonic(5)), "δ₅/δ₁")
         .called("fifth harmonic of the approach, relative", None).compared(Absolutely),
     OfCase::new("index", |r| r.index.into(), "the number in the names of its loop and its record"),
     OfCase::new("method", |r| r.method.name().into(), "how the stabilised cycle was reached"),
@@ -399,31 +400,31 @@ pub static CYCLES: &[OfCycle] = &[
     OfCycle::new("start_s", |c| c.start_s.into(), "when it begins").called("start", Some(Dimension::Time)),
     OfCycle::new("angular_frequency_rad_per_s", |c| c.angular_frequency_rad_per_s.into(), "angular frequency of the drive")
         .called("angular frequency", Some(Dimension::AngularFrequency)),
-    OfCycle::new("energy_loss_j", |c| of_cycle(c, |n| Some(n.analysis.energy_loss_j)),
+    OfCycle::new(OfLoop::EnergyLoss.column(), |c| of_cycle(c, |n| Some(n.analysis.energy_loss_j)),
         "area of the loop once a straight line has closed it; empty where the approach is undefined for a part of the cycle")
         .called("loss / cycle", Some(Dimension::Energy)).with_error(|c| c.errors.energy_loss_j),
-    OfCycle::new("phase_lag_rad", |c| of_cycle(c, |n| Some(n.analysis.phase_lag_rad)), "lag of the approach behind the load, first harmonic")
+    OfCycle::new(OfLoop::PhaseLag.column(), |c| of_cycle(c, |n| Some(n.analysis.phase_lag_rad)), "lag of the approach behind the load, first harmonic")
         .called("phase lag", Some(Dimension::Angle)).with_error(|c| c.errors.phase_lag_rad),
-    OfCycle::new("storage_modulus_pa", |c| of_cycle(c, |n| n.moduli_pa.map(|m| m.0)), "E′ read from the first harmonic and the mean contact radius")
+    OfCycle::new(OfLoop::StorageModulus.column(), |c| of_cycle(c, |n| n.moduli_pa.map(|m| m.0)), "E′ read from the first harmonic and the mean contact radius")
         .called("E′", Some(Stress)).with_error(|c| c.errors.storage_modulus_pa),
-    OfCycle::new("loss_modulus_pa", |c| of_cycle(c, |n| n.moduli_pa.map(|m| m.1)), "E″ likewise")
+    OfCycle::new(OfLoop::LossModulus.column(), |c| of_cycle(c, |n| n.moduli_pa.map(|m| m.1)), "E″ likewise")
         .called("E″", Some(Stress)).with_error(|c| c.errors.loss_modulus_pa),
-    OfCycle::new("load_mean_n", |c| of_cycle(c, |n| Some(n.analysis.load_mean_n)), "mean load").called("mean load", Some(Dimension::Force)),
-    OfCycle::new("load_amplitude_n", |c| of_cycle(c, |n| Some(first(n)?.load_amplitude_n)), "amplitude of its first harmonic")
+    OfCycle::new(OfLoop::LoadMean.column(), |c| of_cycle(c, |n| Some(n.analysis.load_mean_n)), "mean load").called("mean load", Some(Dimension::Force)),
+    OfCycle::new(OfLoop::LoadAmplitude.column(), |c| of_cycle(c, |n| Some(first(n)?.load_amplitude_n)), "amplitude of its first harmonic")
         .called("load amplitude", Some(Dimension::Force)),
     OfCycle::new("load_change_n", |c| of_cycle(c, |n| Some(n.load_change_n)), "load at the end less that at the beginning, which the straight line takes off")
         .called("change of load", Some(Dimension::Force)),
-    OfCycle::new("approach_mean_m", |c| of_cycle(c, |n| Some(n.analysis.approach_mean_m)), "mean approach").called("mean approach", Some(Length)),
-    OfCycle::new("approach_amplitude_m", |c| of_cycle(c, |n| Some(first(n)?.approach_amplitude_m)), "amplitude of its first harmonic")
+    OfCycle::new(OfLoop::ApproachMean.column(), |c| of_cycle(c, |n| Some(n.analysis.approach_mean_m)), "mean approach").called("mean approach", Some(Length)),
+    OfCycle::new(OfLoop::ApproachAmplitude.column(), |c| of_cycle(c, |n| Some(first(n)?.approach_amplitude_m)), "amplitude of its first harmonic")
         .called("approach amplitude", Some(Length)),
     OfCycle::new("approach_change_m", |c| of_cycle(c, |n| Some(n.approach_change_m)), "approach at the end less that at the beginning")
         .called("change of approach", Some(Length)),
     OfCycle::new("contact_radius_mean_m", |c| of_cycle(c, |n| Some(n.mean_contact_radius_m)), "mean contact radius")
         .called("mean radius", Some(Length)),
-    OfCycle::new("harmonic_2", |c| of_cycle(c, |n| n.analysis.approach_harmonic(2)), "second harmonic of the approach over the first"),
-    OfCycle::new("harmonic_3", |c| of_cycle(c, |n| n.analysis.approach_harmonic(3)), "the third"),
-    OfCycle::new("harmonic_4", |c| of_cycle(c, |n| n.analysis.approach_harmonic(4)), "the fourth"),
-    OfCycle::new("harmonic_5", |c| of_cycle(c, |n| n.analysis.approach_harmonic(5)), "the fifth"),
+    OfCycle::new(OfLoop::Harmonic2.column(), |c| of_cycle(c, |n| n.analysis.approach_harmonic(2)), "second harmonic of the approach over the first"),
+    OfCycle::new(OfLoop::Harmonic3.column(), |c| of_cycle(c, |n| n.analysis.approach_harmonic(3)), "the third"),
+    OfCycle::new(OfLoop::Harmonic4.column(), |c| of_cycle(c, |n| n.analysis.approach_harmonic(4)), "the fourth"),
+    OfCycle::new(OfLoop::Harmonic5.column(), |c| of_cycle(c, |n| n.analysis.approach_harmonic(5)), "the fifth"),
 ];
 
 /// The columns of `cycles.csv`, errors beside their values.

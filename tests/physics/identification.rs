@@ -16,7 +16,6 @@ use contact_dma::indenter::{Cone, Indenter, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
 use contact_dma::sweep::Sweep;
 use contact_dma::sweep::plan::{CyclePlan, SweepPlan};
-use contact_dma::sweep::record::error_bars::Quantity;
 
 const POISSON: f64 = 0.35;
 
@@ -52,7 +51,7 @@ fn solid(random: &mut Random) -> Relaxation {
 
 /// What is measured, and how well.
 struct Experiment {
-    quantities: Vec<Quantity>,
+    quantities: Vec<Number>,
     noise: f64,
     with_errors: bool,
 }
@@ -60,7 +59,7 @@ struct Experiment {
 impl Experiment {
     fn losses_and_phases(noise: f64, with_errors: bool) -> Self {
         Self {
-            quantities: vec![Quantity::EnergyLoss, Quantity::PhaseLag],
+            quantities: vec![Number::EnergyLoss, Number::PhaseLag],
             noise,
             with_errors,
         }
@@ -98,7 +97,7 @@ impl Experiment {
                     place: record.angular_frequency_rad_per_s,
                     drive: Some(drive),
                     row,
-                    number: Number::OfCycle(*quantity),
+                    number: *quantity,
                     value: exact * (1.0 + self.noise * random.normal()),
                     error: self.with_errors.then_some(self.noise * exact),
                 });
@@ -226,7 +225,7 @@ fn other_columns_other_shapes_and_a_prescribed_approach_serve_as_well() {
     let under_load = HarmonicDrive::load(10.0, 8.0).unwrap();
     let under_approach = HarmonicDrive::approach(2e-5, 1e-5).unwrap();
     let (indenter, _) = sphere();
-    use Quantity::{
+    use Number::{
         ApproachMax, ContactRadiusMax, EnergyLoss, LossModulus, PhaseLag, StorageModulus,
     };
     let cases = [

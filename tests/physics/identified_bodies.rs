@@ -18,7 +18,6 @@ use contact_dma::sweep::Sweep;
 use contact_dma::sweep::plan::adhesion::AdhesionPlan;
 use contact_dma::sweep::plan::layer::LayerPlan;
 use contact_dma::sweep::plan::{CyclePlan, SweepPlan};
-use contact_dma::sweep::record::error_bars::Quantity;
 
 const POISSON: f64 = 0.35;
 const RADIUS_M: f64 = 1e-3;
@@ -91,11 +90,7 @@ fn of_cycles(drive: HarmonicDrive, with: &With) -> IdentifyPlan {
     sweep.solver.cells = with.measured_on_cells.unwrap_or(with.solver().cells);
     let sweep = Sweep::from(sweep).angular_frequencies_rad_per_s(omegas);
     let records = sweep.unwrap().solve().unwrap().records;
-    let quantities = [
-        Quantity::EnergyLoss,
-        Quantity::PhaseLag,
-        Quantity::ApproachMax,
-    ];
+    let quantities = [Number::EnergyLoss, Number::PhaseLag, Number::ApproachMax];
     let mut data = Vec::new();
     for (row, record) in (1..).zip(&records) {
         let result = record.result.as_ref().unwrap();
@@ -103,7 +98,7 @@ fn of_cycles(drive: HarmonicDrive, with: &With) -> IdentifyPlan {
             place: record.angular_frequency_rad_per_s,
             drive: Some(drive),
             row,
-            number: Number::OfCycle(quantity),
+            number: quantity,
             value: quantity.of(result).unwrap(),
             error: None,
         }));

@@ -70,3 +70,16 @@ fn what_is_stale_is_named_and_renewed() {
         .code(1)
         .stderr(contains("give the folder of the repository"));
 }
+
+#[test]
+fn it_is_in_neither_help_nor_completions() {
+    for arguments in [
+        ["help", "--"],
+        ["completions", "bash"],
+        ["completions", "fish"],
+    ] {
+        let arguments = arguments.iter().filter(|word| **word != "--");
+        let shown = program().args(arguments).assert().success();
+        shown.stdout(contains("completions").and(contains("renew").not()));
+    }
+}

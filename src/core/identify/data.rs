@@ -2,45 +2,109 @@
 
 use crate::drive::{Control, HarmonicDrive, SegmentedDrive};
 use crate::identify::IdentifyError;
+use crate::measured::Quantity as OfLoop;
+use crate::quantity::Dimension::{Angle, Energy, Force, Length, Stress};
 use crate::quantity::{Dimension, format_human};
+use crate::sweep::record::CaseResult;
 use crate::sweep::record::error_bars::Quantity;
 
-/// What was measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Number {
-    /// Of a stabilised cycle.
-    OfCycle(Quantity),
-    /// Amplitude of the first harmonic of a cycle, of the approach (m) or of the load (N).
-    ApproachAmplitude,
-    LoadAmplitude,
-    /// At an instant of a history.
-    Approach,
-    Load,
+/// What is known of a number that can be measured.
+#[derive(Debug)]
+struct NumberRow {
+    column: &'static str,
+    dimension: Dimension,
+    /// Its value in a computed cycle; none of a number of a history.
+    value: fn(&CaseResult) -> Option<f64>,
+    /// Whether it goes with the moduli under a prescribed approach, as all loads do.
+    is_load: bool,
+}
+
+macro_rules! numbers {
+    (
+        of_case { $($case:ident: $case_dimension:ident, is_load: $case_is_load:literal;)* }
+        others {
+            $($(#[$means:meta])* $other:ident: $dimension:ident, is_load: $is_load:literal, $column:expr, $value:expr;)*
+        }
+    ) => {
+        /// What can be measured, and a material be identified from.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        pub enum Number {
+            $($case,)*
+            $($(#[$means])* $other,)*
+        }
+
+        impl Number {
+            /// All of them, in the order of the tables.
+            const ALL: [Self; ROWS.len()] = [$(Self::$case,)* $(Self::$other),*];
+        }
+
+        static ROWS: [NumberRow; [$(stringify!($case),)* $(stringify!($other)),*].len()] = [
+            $(NumberRow {
+                column: Quantity::$case.column(),
+                dimension: $case_dimension,
+                value: |cycle| Quantity::$case.of(cycle),
+                is_load: $case_is_load,
+            },)*
+            $(NumberRow {
+                column: $column,
+                dimension: $dimension,
+                value: $value,
+                is_load: $is_load,
+            },)*
+        ];
+    };
+}
+
+#[rustfmt::skip]
+numbers! {
+    of_case {
+        EnergyLoss: Energy, is_load: true;
+        PhaseLag: Angle, is_load: false;
+        StorageModulus: Stress, is_load: true;
+        LossModulus: Stress, is_load: true;
+        ApproachMin: Length, is_load: false;
+        ApproachMax: Length, is_load: false;
+        ContactRadiusMin: Length, is_load: false;
+        ContactRadiusMax: Length, is_load: false;
+        PeakPressureMin: Stress, is_load: true;
+        PeakPressureMax: Stress, is_load: true;
+    }
+    others {
+        /// Of the first harmonic of a cycle.
+        ApproachAmplitude: Length, is_load: false, OfLoop::ApproachAmplitude.column(),
+            |cycle| Some(cycle.analysis.harmonics.first()?.approach_amplitude_m);
+        /// Of the first harmonic of a cycle.
+        LoadAmplitude: Force, is_load: true, OfLoop::LoadAmplitude.column(),
+            |cycle| Some(cycle.analysis.harmonics.first()?.load_amplitude_n);
+        /// At an instant of a history.
+        Approach: Length, is_load: false, "approach_m", |_| None;
+        /// At an instant of a history.
+        Load: Force, is_load: true, "load_n", |_| None;
+    }
 }
 
 impl Number {
-    /// Its column, as in `sweep.csv` or `history.csv`.
-    pub fn column(self) -> &'static str {
-        match self {
-            Self::OfCycle(quantity) => match quantity {
-                Quantity::EnergyLoss => "energy_loss_j",
-                Quantity::PhaseLag => "phase_lag_rad",
-                Quantity::StorageModulus => "storage_modulus_pa",
-                Quantity::LossModulus => "loss_modulus_pa",
-                Quantity::ApproachMin => "approach_min_m",
-                Quantity::ApproachMax => "approach_max_m",
-                Quantity::ContactRadiusMin => "contact_radius_min_m",
-                Quantity::ContactRadiusMax => "contact_radius_max_m",
-                Quantity::PeakPressureMin => "peak_pressure_min_pa",
-                Quantity::PeakPressureMax => "peak_pressure_max_pa",
-                Quantity::Harmonic2 => "harmonic_2",
-                Quantity::Harmonic3 => "harmonic_3",
-            },
-            Self::ApproachAmplitude => "approach_amplitude_m",
-            Self::LoadAmplitude => "load_amplitude_n",
-            Self::Approach => "approach_m",
-            Self::Load => "load_n",
-        }
+    const fn row(self) -> &'static NumberRow {
+        &ROWS[self as usize]
+    }
+
+    /// Its column, as in `sweep.csv`, `cycles.csv` or `history.csv`.
+    pub const fn column(self) -> &'static str {
+        self.row().column
+    }
+
+    pub const fn dimension(self) -> Dimension {
+        self.row().dimension
+    }
+
+    /// Its value in a computed cycle, where it has one.
+    pub fn of(self, cycle: &CaseResult) -> Option<f64> {
+        (self.row().value)(cycle)
+    }
+
+    /// Whether it goes with the moduli under a prescribed approach.
+    pub(super) fn is_load(self) -> bool {
+        self.row().is_load
     }
 }
 
@@ -237,14 +301,7 @@ impl Measurements {
     /// What was measured, in the order of the table.
     pub fn numbers(&self) -> Vec<Number> {
         let measured = |n: &Number| self.data.iter().any(|datum| datum.number == *n);
-        let of_cycle = Quantity::ALL.into_iter().map(Number::OfCycle);
-        let all = of_cycle.chain([
-            Number::ApproachAmplitude,
-            Number::LoadAmplitude,
-            Number::Approach,
-            Number::Load,
-        ]);
-        all.filter(measured).collect()
+        Number::ALL.into_iter().filter(measured).collect()
     }
 
     /// Lowest and highest angular frequency (rad/s).
@@ -325,7 +382,7 @@ fn usable(datum: &Datum) -> Result<Option<&'static str>, IdentifyError> {
     };
     let error = datum.error.unwrap_or(0.0);
     if datum.value.is_finite() && datum.value > 0.0 {
-        let too_late = datum.number == Number::OfCycle(Quantity::PhaseLag)
+        let too_late = datum.number == Number::PhaseLag
             && datum.value - 3.0 * error >= std::f64::consts::FRAC_PI_2;
         if too_late {
             return refused(
@@ -334,16 +391,26 @@ fn usable(datum: &Datum) -> Result<Option<&'static str>, IdentifyError> {
         }
         return Ok((error >= datum.value).then_some("its error is as large as itself"));
     }
+    let is_negative =
+        datum.value + 3.0 * error < 0.0 || (datum.error.is_none() && datum.value < 0.0);
     match datum.number {
-        Number::OfCycle(Quantity::EnergyLoss | Quantity::PhaseLag | Quantity::LossModulus)
-            if datum.value + 3.0 * error < 0.0 || (datum.error.is_none() && datum.value < 0.0) =>
-        {
-            refused(
-                "a passive material dissipates, and its approach lags behind the load; exchange the sign, or leave the cell empty \
-                 where it was not measured",
-            )
-        }
-        Number::OfCycle(Quantity::StorageModulus) => refused("a modulus is positive"),
-        _ => Ok(Some("it is not above zero")),
+        Number::EnergyLoss | Number::PhaseLag | Number::LossModulus if is_negative => refused(
+            "a passive material dissipates, and its approach lags behind the load; exchange the sign, or leave the cell empty \
+             where it was not measured",
+        ),
+        Number::StorageModulus => refused("a modulus is positive"),
+        Number::EnergyLoss
+        | Number::PhaseLag
+        | Number::LossModulus
+        | Number::ApproachMin
+        | Number::ApproachMax
+        | Number::ContactRadiusMin
+        | Number::ContactRadiusMax
+        | Number::PeakPressureMin
+        | Number::PeakPressureMax
+        | Number::ApproachAmplitude
+        | Number::LoadAmplitude
+        | Number::Approach
+        | Number::Load => Ok(Some("it is not above zero")),
     }
 }

@@ -15,7 +15,6 @@ use crate::identify::IdentifyPlan;
 use crate::identify::data::Number;
 use crate::indenter::Indenter;
 use crate::material::{Compressibility, Creep};
-use crate::sweep::record::error_bars::Quantity;
 
 /// The smallest part of the mean that an oscillation leaves.
 const LEAST: f64 = 1e-3;
@@ -131,91 +130,90 @@ impl<'a> LinearCycle<'a> {
 
     /// A number of the cycle, with the complex modulus (Pa) at its frequency; `NaN` of a number of a history.
     pub(super) fn number(&self, number: Number, equilibrium_pa: f64, modulus: Complex<f64>) -> f64 {
-        match number {
-            Number::OfCycle(Quantity::StorageModulus) => modulus.re,
-            Number::OfCycle(Quantity::LossModulus) => modulus.im,
-            Number::OfCycle(Quantity::Harmonic2 | Quantity::Harmonic3) => 1.0,
-            Number::Approach | Number::Load => f64::NAN,
-            _ => self.of_pair(number, equilibrium_pa, modulus),
+        let of_pair = self.of_pair(equilibrium_pa, modulus);
+        let end = |sign| self.end_m2(sign, of_pair);
+        match (number, self.control) {
+            (Number::StorageModulus, _) => modulus.re,
+            (Number::LossModulus, _) => modulus.im,
+            (Number::PhaseLag, _) => of_pair.at_frequency.arg(),
+            (Number::EnergyLoss, Control::Load) => {
+                let (modulus, approach_m) = (of_pair.at_frequency, self.approach_m(of_pair));
+                std::f64::consts::PI * self.amplitude * approach_m * modulus.im / modulus.norm()
+            }
+            (Number::EnergyLoss, Control::Approach) => {
+                let per_m = 2.0 * std::f64::consts::PI * self.contact.radius_m(1.0);
+                per_m * self.amplitude.powi(2) * of_pair.at_frequency.im
+            }
+            (Number::ApproachMin, Control::Load) => self.contact.approach_m(end(-1.0)),
+            (Number::ApproachMax, Control::Load) => self.contact.approach_m(end(1.0)),
+            (Number::ContactRadiusMin, Control::Load) => self.contact.radius_m(end(-1.0)),
+            (Number::ContactRadiusMax, Control::Load) => self.contact.radius_m(end(1.0)),
+            (Number::PeakPressureMin, _) => self.pressure(-1.0, of_pair),
+            (Number::PeakPressureMax, _) => self.pressure(1.0, of_pair),
+            (Number::ApproachAmplitude, Control::Load) => self.approach_m(of_pair),
+            (Number::LoadAmplitude, Control::Approach) => {
+                2.0 * self.contact.radius_m(1.0) * self.amplitude * of_pair.at_frequency.norm()
+            }
+            // Given by the drive.
+            (Number::ApproachAmplitude, Control::Approach)
+            | (Number::LoadAmplitude, Control::Load) => self.amplitude,
+            (
+                Number::ApproachMin
+                | Number::ApproachMax
+                | Number::ContactRadiusMin
+                | Number::ContactRadiusMax,
+                Control::Approach,
+            ) => 1.0,
+            (Number::Approach | Number::Load, _) => f64::NAN,
         }
     }
 
-    /// The same of what depends on both bodies, as if the compliance of both were one's.
-    fn of_pair(&self, number: Number, equilibrium_pa: f64, modulus: Complex<f64>) -> f64 {
+    /// The moduli of the contact of both bodies, as if the compliance of both were one's.
+    fn of_pair(&self, equilibrium_pa: f64, modulus: Complex<f64>) -> Moduli {
         let (at_frequency, at_rest) = self.indenter_material;
         let of_contact = |tensile, indenter_material| {
             let own = self.compressibility.contact_modulus(tensile);
             own / (1.0 + own * indenter_material)
         };
-        let modulus = of_contact(modulus, at_frequency);
-        let equilibrium_pa = of_contact(equilibrium_pa.into(), at_rest.into()).re;
-        match (number, self.control) {
-            (Number::OfCycle(Quantity::PhaseLag), _) => modulus.arg(),
-            (Number::OfCycle(quantity), Control::Load) => {
-                self.under_load(quantity, equilibrium_pa, modulus)
-            }
-            (Number::OfCycle(quantity), Control::Approach) => {
-                self.under_approach(quantity, equilibrium_pa, modulus)
-            }
-            (Number::ApproachAmplitude, Control::Load) => {
-                self.approach_amplitude_m(equilibrium_pa, modulus)
-            }
-            (Number::LoadAmplitude, Control::Approach) => {
-                2.0 * self.contact.radius_m(1.0) * self.amplitude * modulus.norm()
-            }
-            // Given by the drive.
-            _ => self.amplitude,
+        Moduli {
+            at_frequency: of_contact(modulus, at_frequency),
+            at_rest_pa: of_contact(equilibrium_pa.into(), at_rest.into()).re,
         }
     }
 
-    /// Amplitude (m) of the approach under a prescribed load, of a contact of these moduli (Pa).
-    fn approach_amplitude_m(&self, equilibrium_pa: f64, modulus: Complex<f64>) -> f64 {
-        let radius_m = self.contact.radius_m(self.mean / equilibrium_pa);
-        self.amplitude / (2.0 * radius_m * modulus.norm())
+    /// Amplitude (m) of the approach under a prescribed load.
+    fn approach_m(&self, moduli: Moduli) -> f64 {
+        let radius_m = self.contact.radius_m(self.mean / moduli.at_rest_pa);
+        self.amplitude / (2.0 * radius_m * moduli.at_frequency.norm())
     }
 
-    fn under_load(&self, quantity: Quantity, equilibrium_pa: f64, modulus: Complex<f64>) -> f64 {
-        let size = modulus.norm();
-        let mean = self.mean / equilibrium_pa;
-        let swing = self.amplitude / size;
-        let end = |sign: f64| (mean + sign * swing).max(LEAST * mean);
-        let load = |sign: f64| (self.mean + sign * self.amplitude).max(LEAST * self.mean);
-        let pressure = |sign: f64| load(sign) / self.contact.radius_m(end(sign)).powi(2);
-        match quantity {
-            Quantity::EnergyLoss => {
-                let approach_m = self.approach_amplitude_m(equilibrium_pa, modulus);
-                std::f64::consts::PI * self.amplitude * approach_m * modulus.im / size
-            }
-            Quantity::ApproachMin => self.contact.approach_m(end(-1.0)),
-            Quantity::ApproachMax => self.contact.approach_m(end(1.0)),
-            Quantity::ContactRadiusMin => self.contact.radius_m(end(-1.0)),
-            Quantity::ContactRadiusMax => self.contact.radius_m(end(1.0)),
-            Quantity::PeakPressureMin => pressure(-1.0),
-            _ => pressure(1.0),
-        }
+    /// The product (m^2) of load and compliance at an end of a cycle under a prescribed load.
+    fn end_m2(&self, sign: f64, moduli: Moduli) -> f64 {
+        let mean = self.mean / moduli.at_rest_pa;
+        let swing = self.amplitude / moduli.at_frequency.norm();
+        (mean + sign * swing).max(LEAST * mean)
     }
 
-    fn under_approach(
-        &self,
-        quantity: Quantity,
-        equilibrium_pa: f64,
-        modulus: Complex<f64>,
-    ) -> f64 {
-        let radius = self.contact.radius_m(1.0);
-        let force = |sign: f64| {
-            let mean = self.mean * equilibrium_pa;
-            (mean + sign * self.amplitude * modulus.norm()).max(LEAST * mean)
-        };
-        match quantity {
-            Quantity::EnergyLoss => {
-                2.0 * std::f64::consts::PI * radius * self.amplitude.powi(2) * modulus.im
+    /// A measure of the pressure at an end of the cycle.
+    fn pressure(&self, sign: f64, moduli: Moduli) -> f64 {
+        match self.control {
+            Control::Load => {
+                let load = (self.mean + sign * self.amplitude).max(LEAST * self.mean);
+                load / self.contact.radius_m(self.end_m2(sign, moduli)).powi(2)
             }
-            Quantity::PeakPressureMin => force(-1.0),
-            Quantity::PeakPressureMax => force(1.0),
-            // Given by the drive.
-            _ => 1.0,
+            Control::Approach => {
+                let mean = self.mean * moduli.at_rest_pa;
+                (mean + sign * self.amplitude * moduli.at_frequency.norm()).max(LEAST * mean)
+            }
         }
     }
+}
+
+/// Moduli (Pa) of a contact, at a frequency and at rest.
+#[derive(Debug, Clone, Copy)]
+struct Moduli {
+    at_frequency: Complex<f64>,
+    at_rest_pa: f64,
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use rayon::prelude::*;
 
 use crate::engine::EngineKind;
-use crate::identify::data::{Datum, Number};
+use crate::identify::data::Datum;
 use crate::identify::identified::CellError;
 use crate::identify::{Driven, IdentifyError, IdentifyPlan, history};
 use crate::material::{MaterialError, Relaxation};
@@ -157,14 +157,7 @@ impl<'a> Model<'a> {
         let data = places.flat_map(|(data, cycle)| data.iter().map(move |datum| (datum, cycle)));
         let numbers = data.enumerate().map(|(place, (datum, cycle))| {
             let cycle = (*cycle)?;
-            let first = cycle.analysis.harmonics.first();
-            let number = match datum.number {
-                Number::OfCycle(quantity) => quantity.of(cycle)?,
-                Number::ApproachAmplitude => first?.approach_amplitude_m,
-                Number::LoadAmplitude => first?.load_amplitude_n,
-                Number::Approach | Number::Load => return None,
-            };
-            Some(number * self.correction(place))
+            Some(datum.number.of(cycle)? * self.correction(place))
         });
         numbers.collect()
     }

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::drive::Control;
-use crate::identify::data::{Datum, Measurements, Number};
+use crate::identify::data::{Datum, Measurements};
 use crate::identify::history::LinearHistory;
 use crate::identify::linear::{LinearCycle, at_rest};
 use crate::identify::model::Model;
@@ -11,7 +11,6 @@ use crate::identify::noise::Noise;
 use crate::identify::series::{Limits, Point};
 use crate::identify::{IdentifyError, IdentifyPlan};
 use crate::numerics::levenberg_marquardt::{Ending, Problem, Solution, minimise};
-use crate::sweep::record::error_bars::Quantity;
 
 /// Step of an unknown for the derivatives of the linearised contact, which is smooth.
 const STEP: f64 = 1e-5;
@@ -215,23 +214,11 @@ impl Linearised<'_> {
     /// The mean square of the logarithms of computed over measured numbers, of those that were found. Under a prescribed approach all
     /// loads go with the moduli and factors do not: loads that are off by one factor are met.
     fn mean_square(&self, exact: &[Option<f64>]) -> f64 {
-        let is_load = |number: Number| match number {
-            Number::OfCycle(quantity) => matches!(
-                quantity,
-                Quantity::EnergyLoss
-                    | Quantity::StorageModulus
-                    | Quantity::LossModulus
-                    | Quantity::PeakPressureMin
-                    | Quantity::PeakPressureMax
-            ),
-            Number::Load | Number::LoadAmplitude => true,
-            Number::Approach | Number::ApproachAmplitude => false,
-        };
         let is_free = self.plan.drive.control() == Control::Approach;
         let data = self.measured().data().iter().zip(exact);
         let offs = data.filter_map(|(datum, exact)| {
             let off = ((*exact)? / datum.value).ln();
-            Some((off, is_free && is_load(datum.number)))
+            Some((off, is_free && datum.number.is_load()))
         });
         let (free, bound): (Vec<_>, Vec<_>) = offs.partition(|(_, is_free)| *is_free);
         let known: Vec<f64> = free

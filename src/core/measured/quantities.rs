@@ -4,9 +4,10 @@
 use num_complex::Complex;
 
 use crate::cycle::{Extrema, Harmonics};
+use crate::sweep::record::error_bars::Quantity as OfCase;
 
 macro_rules! quantities {
-    ($($quantity:ident: $column:literal, $name:literal;)*) => {
+    ($($quantity:ident: $column:expr, $name:literal;)*) => {
         /// A number of a cycle.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub enum Quantity {
@@ -15,37 +16,42 @@ macro_rules! quantities {
 
         impl Quantity {
             /// In the order of their columns, each with its column in SI units and its name in sentences.
-            pub const ALL: [(Self, &'static str, &'static str); [$($column),*].len()] =
+            pub const ALL: [(Self, &'static str, &'static str); [$($name),*].len()] =
                 [$((Self::$quantity, $column, $name)),*];
         }
     };
 }
 
 quantities! {
-    EnergyLoss: "energy_loss_j", "energy loss";
-    PhaseLag: "phase_lag_rad", "phase lag";
+    EnergyLoss: OfCase::EnergyLoss.column(), "energy loss";
+    PhaseLag: OfCase::PhaseLag.column(), "phase lag";
     LoadMean: "load_mean_n", "mean load";
     LoadAmplitude: "load_amplitude_n", "amplitude of the load";
     ApproachMean: "approach_mean_m", "mean approach";
     ApproachAmplitude: "approach_amplitude_m", "amplitude of the approach";
-    Harmonic2: "harmonic_2", "second harmonic";
-    Harmonic3: "harmonic_3", "third harmonic";
+    Harmonic2: OfCase::Harmonic2.column(), "second harmonic";
+    Harmonic3: OfCase::Harmonic3.column(), "third harmonic";
     Harmonic4: "harmonic_4", "fourth harmonic";
     Harmonic5: "harmonic_5", "fifth harmonic";
     HarmonicPhase2: "harmonic_2_phase_rad", "phase of the second harmonic";
     HarmonicPhase3: "harmonic_3_phase_rad", "phase of the third harmonic";
     HarmonicPhase4: "harmonic_4_phase_rad", "phase of the fourth harmonic";
     HarmonicPhase5: "harmonic_5_phase_rad", "phase of the fifth harmonic";
-    ApproachMin: "approach_min_m", "smallest approach";
-    ApproachMax: "approach_max_m", "largest approach";
+    ApproachMin: OfCase::ApproachMin.column(), "smallest approach";
+    ApproachMax: OfCase::ApproachMax.column(), "largest approach";
     ContactRadius: "contact_radius_m", "contact radius";
-    StorageModulus: "storage_modulus_pa", "storage modulus";
-    LossModulus: "loss_modulus_pa", "loss modulus";
+    StorageModulus: OfCase::StorageModulus.column(), "storage modulus";
+    LossModulus: OfCase::LossModulus.column(), "loss modulus";
 }
 
 use Quantity::*;
 
 impl Quantity {
+    /// Its column in SI units.
+    pub const fn column(self) -> &'static str {
+        Self::ALL[self as usize].1
+    }
+
     /// Its place among the values of a cycle.
     pub fn place(self) -> usize {
         self as usize

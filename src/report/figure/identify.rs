@@ -41,21 +41,14 @@ fn places(report: &IdentifyReport<'_>) -> Axis {
 /// What was measured, in the words of its column, and its dimension.
 fn words(number: Number) -> (&'static str, Option<Dimension>) {
     let name = number.column();
-    let known = match number {
-        Number::OfCycle(_) => quantities::of_name(name).map(|c| (c.heading, c.dimension)),
-        Number::ApproachAmplitude | Number::LoadAmplitude => {
-            let mut columns = measured::columns::OWN.iter();
-            columns
-                .find(|c| c.name == name)
-                .map(|c| (c.heading, c.dimension))
-        }
-        Number::Approach | Number::Load => {
-            let mut columns = quantities::HISTORY.iter();
-            columns
-                .find(|c| c.name == name)
-                .map(|c| (c.heading, c.dimension))
-        }
-    };
+    let of_sweep = quantities::of_name(name).map(|c| (c.heading, c.dimension));
+    let mut of_analysis = measured::columns::OWN.iter();
+    let of_analysis = of_analysis.find(|c| c.name == name);
+    let mut of_history = quantities::HISTORY.iter();
+    let of_history = of_history.find(|c| c.name == name);
+    let known = of_sweep
+        .or_else(|| of_analysis.map(|c| (c.heading, c.dimension)))
+        .or_else(|| of_history.map(|c| (c.heading, c.dimension)));
     known.unwrap_or((name, None))
 }
 

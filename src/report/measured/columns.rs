@@ -12,9 +12,9 @@ type Of = Column<MeasuredRow>;
 
 /// Value and error of a mean.
 macro_rules! mean {
-    ($name:literal, $quantity:ident, $meaning:literal) => {
+    ($quantity:ident, $meaning:literal) => {
         Of::new(
-            $name,
+            Quantity::$quantity.column(),
             |r| r.mean(Quantity::$quantity).map(|mean| mean.value).into(),
             $meaning,
         )
@@ -35,18 +35,18 @@ pub static MEASURED: &[Of] = &[
     Of::new("drive_mean", |r| r.mean(Quantity::LoadMean).map(|m| m.value).into(), "mean load (N)"),
     Of::new("drive_amplitude", |r| r.mean(Quantity::LoadAmplitude).map(|m| m.value).into(),
         "amplitude of the first harmonic of the load (N)"),
-    mean!("energy_loss_j", EnergyLoss, "energy loss per cycle, from the harmonics of both signals").called("energy loss per cycle", Some(Energy)),
-    mean!("phase_lag_rad", PhaseLag, "lag of the approach behind the load, first harmonics").called("phase lag of the approach", Some(Angle)),
-    mean!("storage_modulus_pa", StorageModulus,
+    mean!(EnergyLoss, "energy loss per cycle, from the harmonics of both signals").called("energy loss per cycle", Some(Energy)),
+    mean!(PhaseLag, "lag of the approach behind the load, first harmonics").called("phase lag of the approach", Some(Angle)),
+    mean!(StorageModulus,
         "(1 − ν²) W₁ cos(phase lag)/(2 a₀ δ₁), as a sweep has it; the bias of this formula is in it")
         .called("storage modulus from the loop", Some(Stress)),
-    mean!("loss_modulus_pa", LossModulus, "the same with the sine").called("loss modulus from the loop", Some(Stress)),
-    mean!("approach_min_m", ApproachMin, "smallest approach of the mean cycle, drift taken off").called("smallest approach", Some(Length)),
-    mean!("approach_max_m", ApproachMax, "the largest").called("largest approach", Some(Length)),
-    mean!("harmonic_2", Harmonic2, "second harmonic of the approach over the first"),
-    mean!("harmonic_3", Harmonic3, "third harmonic of the approach over the first"),
-    mean!("harmonic_4", Harmonic4, "the fourth"),
-    mean!("harmonic_5", Harmonic5, "the fifth"),
+    mean!(LossModulus, "the same with the sine").called("loss modulus from the loop", Some(Stress)),
+    mean!(ApproachMin, "smallest approach of the mean cycle, drift taken off").called("smallest approach", Some(Length)),
+    mean!(ApproachMax, "the largest").called("largest approach", Some(Length)),
+    mean!(Harmonic2, "second harmonic of the approach over the first"),
+    mean!(Harmonic3, "third harmonic of the approach over the first"),
+    mean!(Harmonic4, "the fourth"),
+    mean!(Harmonic5, "the fifth"),
     Of::new("index", |r| r.index.into(), "the number in the names of its loop and its cycles"),
     Of::new("method", |_| "measured".into(), "measured"),
     Of::new("cycles", |r| r.measured.as_ref().map(|m| m.used.len()).into(), "cycles that count in the means"),
@@ -68,15 +68,15 @@ pub static OWN: &[Of] = &[
         .called("standard error of the loss", Some(Energy)),
     Of::new("phase_lag_standard_error_rad", |r| standard(r, Quantity::PhaseLag), "standard error of the mean phase lag")
         .called("standard error of the phase lag", Some(Angle)),
-    mean!("load_mean_n", LoadMean, "mean load").called("mean load", Some(Force)),
-    mean!("load_amplitude_n", LoadAmplitude, "amplitude of its first harmonic").called("amplitude of the load", Some(Force)),
+    mean!(LoadMean, "mean load").called("mean load", Some(Force)),
+    mean!(LoadAmplitude, "amplitude of its first harmonic").called("amplitude of the load", Some(Force)),
     Of::new("load_amplitude_standard_error_n", |r| standard(r, Quantity::LoadAmplitude), "its standard error")
         .called("standard error of the amplitude of the load", Some(Force)),
-    mean!("approach_mean_m", ApproachMean, "mean approach, drift taken off").called("mean approach", Some(Length)),
-    mean!("approach_amplitude_m", ApproachAmplitude, "amplitude of its first harmonic").called("amplitude of the approach", Some(Length)),
+    mean!(ApproachMean, "mean approach, drift taken off").called("mean approach", Some(Length)),
+    mean!(ApproachAmplitude, "amplitude of its first harmonic").called("amplitude of the approach", Some(Length)),
     Of::new("approach_amplitude_standard_error_m", |r| standard(r, Quantity::ApproachAmplitude), "its standard error")
         .called("standard error of the amplitude of the approach", Some(Length)),
-    mean!("contact_radius_m", ContactRadius, "contact radius a₀ of the moduli").called("contact radius", Some(Length)),
+    mean!(ContactRadius, "contact radius a₀ of the moduli").called("contact radius", Some(Length)),
     Of::new("corrected_storage_modulus_pa", |r| r.unbiased().map(|u| u.storage_modulus_pa.value).into(),
         "storage modulus without the bias of the formula, which the exact model gives; empty without an indenter in the setup")
         .called("storage modulus without bias", Some(Stress)).with_error(|r| r.unbiased()?.storage_modulus_pa.error),
@@ -84,12 +84,12 @@ pub static OWN: &[Of] = &[
         .called("loss modulus without bias", Some(Stress)).with_error(|r| r.unbiased()?.loss_modulus_pa.error),
     Of::new("storage_modulus_bias", |r| r.unbiased().map(|u| u.storage_bias - 1.0).into(), "by which part the formula is too high, too low where negative"),
     Of::new("loss_modulus_bias", |r| r.unbiased().map(|u| u.loss_bias - 1.0).into(), "the same of the loss modulus"),
-    mean!("harmonic_2_phase_rad", HarmonicPhase2,
+    mean!(HarmonicPhase2,
         "phase of the second harmonic of the approach from the instant at which the first harmonic of the load rises through its mean")
         .called("phase of the second harmonic", Some(Angle)),
-    mean!("harmonic_3_phase_rad", HarmonicPhase3, "of the third").called("phase of the third harmonic", Some(Angle)),
-    mean!("harmonic_4_phase_rad", HarmonicPhase4, "of the fourth").called("phase of the fourth harmonic", Some(Angle)),
-    mean!("harmonic_5_phase_rad", HarmonicPhase5, "of the fifth").called("phase of the fifth harmonic", Some(Angle)),
+    mean!(HarmonicPhase3, "of the third").called("phase of the third harmonic", Some(Angle)),
+    mean!(HarmonicPhase4, "of the fourth").called("phase of the fourth harmonic", Some(Angle)),
+    mean!(HarmonicPhase5, "of the fifth").called("phase of the fifth harmonic", Some(Angle)),
     Of::new("cycles_measured", |r| r.measured.as_ref().map(|m| m.cycles.len()).into(), "whole cycles of the record"),
     Of::new("first_stabilised_cycle", |r| r.measured.as_ref().and_then(|m| m.first_stabilised).into(),
         "the cycle from which on nothing changes, from 1; empty where something changes to the end"),

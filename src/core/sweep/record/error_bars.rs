@@ -12,107 +12,8 @@ use serde::{Deserialize, Serialize};
 use crate::indenter::{Axisymmetric, Indenter};
 use crate::numerics::polynomial::richardson;
 use crate::sweep::record::CaseResult;
-
-/// The numbers of a case that have error bars.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Quantity {
-    EnergyLoss,
-    PhaseLag,
-    StorageModulus,
-    LossModulus,
-    ApproachMin,
-    ApproachMax,
-    ContactRadiusMin,
-    ContactRadiusMax,
-    PeakPressureMin,
-    PeakPressureMax,
-    Harmonic2,
-    Harmonic3,
-}
-
-impl Quantity {
-    /// All of them, in the order of the table.
-    pub const ALL: [Self; 12] = [
-        Self::EnergyLoss,
-        Self::PhaseLag,
-        Self::StorageModulus,
-        Self::LossModulus,
-        Self::ApproachMin,
-        Self::ApproachMax,
-        Self::ContactRadiusMin,
-        Self::ContactRadiusMax,
-        Self::PeakPressureMin,
-        Self::PeakPressureMax,
-        Self::Harmonic2,
-        Self::Harmonic3,
-    ];
-
-    /// Its value in a result, where it has one.
-    pub fn of(self, result: &CaseResult) -> Option<f64> {
-        match self {
-            Self::EnergyLoss => Some(result.analysis.energy_loss_j),
-            Self::PhaseLag => Some(result.analysis.phase_lag_rad),
-            Self::StorageModulus => result.storage_modulus_pa,
-            Self::LossModulus => result.loss_modulus_pa,
-            Self::ApproachMin => Some(result.approach_m.minimum),
-            Self::ApproachMax => Some(result.approach_m.maximum),
-            Self::ContactRadiusMin => Some(result.contact_radius_m.minimum),
-            Self::ContactRadiusMax => Some(result.contact_radius_m.maximum),
-            Self::PeakPressureMin => result.peak_pressure_pa.map(|p| p.minimum),
-            Self::PeakPressureMax => result.peak_pressure_pa.map(|p| p.maximum),
-            Self::Harmonic2 => result.analysis.approach_harmonic(2),
-            Self::Harmonic3 => result.analysis.approach_harmonic(3),
-        }
-    }
-
-    /// The lowest and the highest order in the nodes that are believed, the latter of what is smooth in them as given. What is
-    /// read off at the edge of the contact, or at its middle, jumps about with the place of the edge between two nodes, and seems
-    /// to converge faster than it does; a pressure at an apex may converge very slowly.
-    fn orders(self, smooth: f64) -> (f64, f64) {
-        match self {
-            Self::EnergyLoss
-            | Self::PhaseLag
-            | Self::ApproachMin
-            | Self::ApproachMax
-            | Self::Harmonic2
-            | Self::Harmonic3 => (LOWEST_SMOOTH_ORDER, smooth),
-            Self::StorageModulus
-            | Self::LossModulus
-            | Self::ContactRadiusMin
-            | Self::ContactRadiusMax
-            | Self::PeakPressureMin
-            | Self::PeakPressureMax => (0.3, 1.0),
-        }
-    }
-
-    /// The lowest and the highest order in the time steps that are believed, the latter of what the whole cycle makes as given.
-    /// Extremes are read between samples, to the second.
-    fn orders_in_steps(self, of_cycle: f64) -> (f64, f64) {
-        let highest = match self {
-            Self::EnergyLoss | Self::PhaseLag | Self::LossModulus => of_cycle,
-            _ => of_cycle.min(2.0),
-        };
-        (LOWEST_SMOOTH_ORDER, highest)
-    }
-
-    /// What a distance to the stabilised cycle is relative to: a phase and harmonics are relative already.
-    fn scale(self, result: &CaseResult) -> Option<f64> {
-        let value = self.of(result)?;
-        Some(match self {
-            Self::Harmonic2 | Self::Harmonic3 => 1.0,
-            // What is missing of a memory adds to the whole approach, not to its range alone.
-            Self::ApproachMin | Self::ApproachMax => result.approach_m.maximum.abs(),
-            Self::ContactRadiusMin | Self::ContactRadiusMax => result.contact_radius_m.maximum,
-            Self::PeakPressureMin | Self::PeakPressureMax => {
-                result.peak_pressure_pa.map_or(0.0, |p| p.maximum)
-            }
-            Self::EnergyLoss | Self::PhaseLag | Self::StorageModulus | Self::LossModulus => {
-                value.abs()
-            }
-        })
-    }
-}
+pub use crate::sweep::record::quantity::Quantity;
+use crate::sweep::record::quantity::{Convergence, EdgeRule, InSteps};
 
 /// Where the contact ends on cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -210,15 +111,14 @@ impl InNodes {
         let radius_m = result.contact_radius_m;
         // A contact of less than a cell has no edge that lies between two.
         let part = |radius_m: f64| (radius_m / cell_m).max(1.0).powf(-1.5);
+        let rule = quantity.row().edge;
         if let Edge::Rim { power } = edge {
             let relative = power * 3.0 * 0.024 * part(radius_m.maximum);
-            return match quantity {
-                Quantity::EnergyLoss
-                | Quantity::StorageModulus
-                | Quantity::LossModulus
-                | Quantity::ApproachMin
-                | Quantity::ApproachMax => relative * quantity.of(result).map_or(0.0, f64::abs),
-                _ => 0.0,
+            return match rule {
+                EdgeRule::Loss | EdgeRule::AtRim => {
+                    relative * quantity.of(result).map_or(0.0, f64::abs)
+                }
+                EdgeRule::Harmonic | EdgeRule::Radius(_) | EdgeRule::Nothing => 0.0,
             };
         }
         // A sharp edge, which averages over no places, has the whole width by which a staircase is less stiff than its area.
@@ -229,28 +129,40 @@ impl InNodes {
         let relative = |radius_m: f64| 3.0 * 0.13 * part(radius_m);
         let places = 1.0 + 2.0 * (radius_m.maximum - radius_m.minimum) / cell_m;
         let averaged = relative(0.5 * (radius_m.minimum + radius_m.maximum)) / places;
-        match quantity {
-            Quantity::EnergyLoss => (averaged + staircase) * result.analysis.energy_loss_j.abs(),
-            Quantity::Harmonic2 | Quantity::Harmonic3 => averaged,
-            Quantity::ContactRadiusMin => relative(radius_m.minimum) * radius_m.minimum,
-            Quantity::ContactRadiusMax => relative(radius_m.maximum) * radius_m.maximum,
-            Quantity::PhaseLag
-            | Quantity::StorageModulus
-            | Quantity::LossModulus
-            | Quantity::ApproachMin
-            | Quantity::ApproachMax
-            | Quantity::PeakPressureMin
-            | Quantity::PeakPressureMax => 0.0,
+        match rule {
+            EdgeRule::Loss => (averaged + staircase) * quantity.of(result).map_or(0.0, f64::abs),
+            EdgeRule::Harmonic => averaged,
+            EdgeRule::Radius(of) => relative(of(&radius_m)) * of(&radius_m),
+            EdgeRule::AtRim | EdgeRule::Nothing => 0.0,
         }
     }
 
     fn safety_of(self, quantity: Quantity) -> f64 {
         let (of_loss, of_others) = self.safety;
-        match quantity {
-            Quantity::EnergyLoss => of_loss,
-            _ => of_others,
+        match quantity.row().edge {
+            EdgeRule::Loss => of_loss,
+            EdgeRule::Harmonic | EdgeRule::Radius(_) | EdgeRule::AtRim | EdgeRule::Nothing => {
+                of_others
+            }
         }
     }
+
+    /// The lowest and the highest order in the nodes that are believed.
+    fn orders(self, quantity: Quantity) -> (f64, f64) {
+        match quantity.row().in_nodes {
+            Convergence::Smooth => (LOWEST_SMOOTH_ORDER, self.order),
+            Convergence::Local => (0.3, 1.0),
+        }
+    }
+}
+
+/// The lowest and the highest order in the time steps that are believed, the latter of what the whole cycle makes as given.
+fn orders_in_steps(quantity: Quantity, of_cycle: f64) -> (f64, f64) {
+    let highest = match quantity.row().in_steps {
+        InSteps::OfCycle => of_cycle,
+        InSteps::Extreme => of_cycle.min(2.0),
+    };
+    (LOWEST_SMOOTH_ORDER, highest)
 }
 
 /// Estimated errors, absolute, in the units of the quantities.
@@ -337,9 +249,9 @@ impl ErrorBars {
         };
         let bar = |quantity: Quantity| {
             Some(Bar {
-                steps: SAFETY * error(quantity, steps, quantity.orders_in_steps(order_in_steps))?,
+                steps: SAFETY * error(quantity, steps, orders_in_steps(quantity, order_in_steps))?,
                 nodes: believed.safety_of(quantity)
-                    * error(quantity, nodes, quantity.orders(believed.order))?
+                    * error(quantity, nodes, believed.orders(quantity))?
                     + believed.edge_error(quantity, result),
                 steady: (steady_distance + ROUNDING) * quantity.scale(result)?,
                 material: MATERIAL_SAFETY * of_material(quantity),

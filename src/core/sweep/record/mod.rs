@@ -2,6 +2,7 @@
 
 pub mod error_bars;
 pub mod material_error;
+mod quantity;
 pub(crate) mod slope;
 pub mod warning;
 
