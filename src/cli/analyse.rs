@@ -1,6 +1,5 @@
 //! `contact-dma analyse`: measured loops to the table of a sweep.
 
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::{self, RecvTimeoutError};
@@ -10,22 +9,21 @@ use clap::Args;
 use rayon::prelude::*;
 use serde_json::json;
 
-use super::arguments::{OutputFormat, folder, threads};
+use super::documents::{read_bytes, read_document};
+use super::failure::{Ended, Failure};
+use super::flags::{WorkFlags, folder};
+use super::folders::write_result;
 use super::interruption;
-use super::material::draw;
-use super::{Ended, Failure, json, print, read_document, say_quietly};
-use crate::input::document::read_limited;
+use super::output::{OutputFormat, print, print_json, read_json, say_quietly};
 use crate::input::loop_file;
 use crate::input::setup_file::{self, Setup};
 use crate::measured::Options;
 use crate::quantity::{Dimension, parse};
 use crate::report::caption::Setting as CaptionSetting;
 use crate::report::comparison::SweepTable;
-use crate::report::figure::press::Files;
 use crate::report::measured::{
     self, ANALYSIS, Analysis, Computed, MeasuredRow, columns, ordered, text,
 };
-use crate::report::text::Text;
 use crate::report::{figure, machine, page};
 use crate::sweep::record::Status;
 use crate::sweep::search::run;
@@ -42,20 +40,8 @@ A file has the columns time, load and approach (or force, depth, displacement, .
 units, `Time (s),Load (mN),Depth (nm)` or `time_s,load_n,approach_m`; or it is a matrix of NumPy
 (.npy) with these three columns in SI units. Times need not be uniform.
 
-Written to the output folder: sweep.csv (one row per file, the columns of a sweep), loops/ (the
-mean cycles), cycles/ (every cycle by itself), summary.json, figures and index.html, and
-analysis.json (everything), from which `contact-dma report` draws again. `contact-dma compare`
-holds the folder against that of a sweep.
-
-A setup says what is known of instrument and contact; every table may be left out:
-
-  [instrument]
-  frame_compliance = \"0.5 um/N\"   # mass, damping, stiffness, time_lag, thermal_drift
-  [contact]                         # for moduli
-  poisson_ratio = 0.38
-  [indenter]
-  shape = \"sphere\"
-  radius = \"1 mm\"")]
+The folder opens with index.html, one page of everything; sweep.csv has one row per file and the
+columns of a sweep, with which `contact-dma compare` compares it.")]
 pub(super) struct AnalyseFlags {
     /// Records of load and approach against time, one a file
     #[arg(required = true, value_name = "FILE")]
@@ -73,18 +59,11 @@ pub(super) struct AnalyseFlags {
     /// Folder of a computed sweep, whose loops and curves are drawn beside the measured ones
     #[arg(long, value_name = "DIR")]
     against: Option<PathBuf>,
-    /// Number of threads, which share the files [default: one per processor, at most four for each]; the results do not depend on it
-    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
-    threads: Option<NonZeroUsize>,
     /// Write only tables, without figures and page
     #[arg(long)]
     no_figures: bool,
-    /// Replace another result in the output folder, or add to a folder that has files of others, of which none is touched
-    #[arg(long)]
-    force: bool,
-    /// Print nothing but errors
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    work: WorkFlags,
 }
 
 /// A frequency in Hz; rad/s is understood.
@@ -116,7 +95,7 @@ pub(super) fn run(flags: &AnalyseFlags, format: OutputFormat) -> Result<Ended, F
     let target = Target {
         folder: &flags.out,
         kind: Kind::Analysis,
-        force: flags.force,
+        force: flags.work.force,
         reads: &reads,
     };
     target.check()?;
@@ -133,7 +112,7 @@ pub(super) fn run(flags: &AnalyseFlags, format: OutputFormat) -> Result<Ended, F
         ..setup.options
     };
     let computed = flags.against.as_deref().map(computed).transpose()?;
-    let Some(rows) = rows(flags.files.clone(), options, flags.threads)? else {
+    let Some(rows) = rows(flags.files.clone(), options, flags.work.threads())? else {
         return Ok(Ended::Interrupted);
     };
     let analysis = Analysis {
@@ -142,7 +121,11 @@ pub(super) fn run(flags: &AnalyseFlags, format: OutputFormat) -> Result<Ended, F
         rows: ordered(rows),
         computed: computed.unwrap_or_default(),
     };
-    finish(&target, &analysis, (!flags.no_figures, flags.quiet, format))
+    finish(
+        &target,
+        &analysis,
+        (!flags.no_figures, flags.work.quiet, format),
+    )
 }
 
 /// What the files come to, in their order; `None` where Ctrl-C came first. Nothing is written until all are there, so that what is
@@ -150,12 +133,12 @@ pub(super) fn run(flags: &AnalyseFlags, format: OutputFormat) -> Result<Ended, F
 fn rows(
     files: Vec<PathBuf>,
     options: Options,
-    threads: Option<NonZeroUsize>,
+    threads: usize,
 ) -> Result<Option<Vec<MeasuredRow>>, Failure> {
     /// How often Ctrl-C is looked for.
     const EVERY: Duration = Duration::from_millis(50);
     let interrupt = interruption::keep_finished();
-    let pool = run::pool(run::useful_threads(threads))?;
+    let pool = run::pool(threads)?;
     let (sender, receiver) = mpsc::channel();
     std::thread::spawn(move || {
         // One file a thread is in memory at a time.
@@ -195,8 +178,7 @@ pub(super) fn again(
     }
     let name = path.display();
     let read = || {
-        let bytes = read_limited(&path, MAX_BYTES)
-            .map_err(|error| Failure::input(format!("cannot read {name}: {error}")))?;
+        let bytes = read_bytes(&path, MAX_BYTES)?;
         serde_json::from_slice::<Analysis>(&bytes).map_err(|error| {
             Failure::input(format!(
                 "{name} is none that this version of the program wrote: {error}"
@@ -222,9 +204,7 @@ fn computed(folder: &Path) -> Result<Vec<Computed>, Failure> {
         )));
     }
     let name = table.display().to_string();
-    let bytes = read_limited(&table, MAX_BYTES)
-        .map_err(|error| Failure::input(format!("cannot read {name}: {error}")))?;
-    let rows = SweepTable::parse(&name, &bytes, None)?.numbers_under([
+    let rows = SweepTable::parse(&name, &read_bytes(&table, MAX_BYTES)?, None)?.numbers_under([
         "angular_frequency_rad_per_s",
         "index",
         "energy_loss_j",
@@ -265,12 +245,16 @@ fn finish(
     write(target, analysis, figures)?;
     let folder = target.folder;
     match format {
-        OutputFormat::Json => json::print(&json!({
+        OutputFormat::Json => print_json(&json!({
             "folder": folder,
             "rows": machine::rows(&columns::of_records(), &analysis.rows),
-            "summary": json::file(&folder.join("summary.json"))?,
+            "summary": read_json(&folder.join("summary.json"))?,
         }))?,
-        OutputFormat::Text if !quiet => print(&printed(folder, &analysis.rows))?,
+        OutputFormat::Text if !quiet => {
+            let mut text = text::text(&analysis.rows);
+            text.append(format!("\nResults in {}", folder.display()));
+            print(&text)?
+        }
         OutputFormat::Text => Ended::Done,
     };
     say_quietly(quiet, || text::without_mean(&analysis.rows));
@@ -281,33 +265,17 @@ fn finish(
     })
 }
 
-fn printed(folder: &Path, rows: &[MeasuredRow]) -> Text {
-    let mut printed = Text::default();
-    if let [row] = rows
-        && let Some(measured) = &row.measured
-    {
-        printed.append(text::record(measured).into_iter().collect::<Text>());
-        printed.blank();
-    }
-    printed.append(text::table(rows));
-    printed.append_apart(text::moduli(rows));
-    printed.append(text::findings(rows));
-    printed.append(format!("\nResults in {}", folder.display()));
-    printed
-}
-
 /// Writes everything.
 fn write(target: &Target<'_>, analysis: &Analysis, with_figures: bool) -> Result<(), Failure> {
-    let files = Files::default();
-    for (name, bytes) in measured::files(analysis).map_err(Failure::run)? {
-        files.insert(name, bytes);
-    }
-    if with_figures {
-        let figures = figure::measured::figures(analysis);
-        let setting = CaptionSetting::default();
-        draw(&files, &figures, &setting, |pictures, _| {
-            page::measured::page(analysis, &figures, pictures)
-        })?;
-    }
-    Ok(target.write(files.into_vec())?)
+    let files = measured::files(analysis).map_err(Failure::run)?;
+    let figures = match with_figures {
+        true => figure::measured::figures(analysis),
+        false => Vec::new(),
+    };
+    write_result(
+        target,
+        files,
+        (&figures, &CaptionSetting::default()),
+        |pictures, _| page::measured::page(analysis, &figures, pictures),
+    )
 }

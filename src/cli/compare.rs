@@ -4,9 +4,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::arguments::{OutputFormat, folder};
-use super::{Ended, Failure, json, stored, tell};
-use crate::input::document::read_limited;
+use serde_json::{Value, json};
+
+use super::documents::read_bytes;
+use super::failure::{Ended, Failure};
+use super::flags::OutFlags;
+use super::output::{OutputFormat, tell};
+use super::stored;
 use crate::report::comparison::{Comparison, RunFacts, Source, SweepTable, Tolerances};
 use crate::report::figure::{
     self,
@@ -22,17 +26,12 @@ use crate::sweep::store::manifest::{Kind, Target, kind_of};
 #[command(after_help = "\
 Examples:
   contact-dma compare reports/baseline/pmma reports/pmma
-  contact-dma compare a/sweep.csv b/sweep.csv --relative 1e-3 --tolerance peak_pressure_max_pa=1e-2
-
   contact-dma compare reports/baseline/pmma reports/pmma --peaks 1e-3
+  contact-dma compare a/sweep.csv b/sweep.csv --relative 1e-3 --tolerance peak_pressure_max_pa=1e-2
 
 Cases are matched by drive and frequency, peaks by frequency. Values on the same steps and nodes
 are the same within --relative and --absolute; on different ones, within their error bars too.
-With --peaks, the verdict (exit code 0 or 4) is on the peaks alone, and on the columns named with
---tolerance. Results without a case in common, or without a peak where peaks were asked for,
-differ.
-With --out, both curves of the loss and their difference are drawn as SVG and PNG, with data,
-and index.html says all of it in one page: verdict, columns, peaks, cases, where both come from.")]
+With --peaks, the verdict (exit code 0 or 4) is on the peaks and the columns of --tolerance alone.")]
 pub(super) struct CompareFlags {
     /// Folder of a sweep, or a sweep.csv
     baseline: PathBuf,
@@ -51,12 +50,8 @@ pub(super) struct CompareFlags {
     /// located
     #[arg(long, value_name = "R", num_args = 0..=1, default_missing_value = "1e-3", value_parser = tolerance)]
     peaks: Option<f64>,
-    /// Folder for figure and page of both
-    #[arg(long, value_name = "DIR", value_parser = folder())]
-    out: Option<PathBuf>,
-    /// Replace another result in the output folder, or add to a folder that has files of others, of which none is touched
-    #[arg(long, requires = "out")]
-    force: bool,
+    #[command(flatten)]
+    to: OutFlags,
     /// Print nothing but errors
     #[arg(long, short)]
     quiet: bool,
@@ -74,13 +69,7 @@ pub(super) fn run(flags: &CompareFlags, format: OutputFormat) -> Result<Ended, F
         peaks: flags.peaks,
     };
     let reads = [flags.baseline.clone(), flags.new.clone()];
-    let target = flags.out.as_deref().map(|folder| Target {
-        folder,
-        kind: Kind::Comparison,
-        force: flags.force,
-        reads: &reads,
-    });
-    target.map_or(Ok(()), |target| target.check())?;
+    let target = flags.to.target(Kind::Comparison, &reads)?;
     for result in &reads {
         refuse_other(result)?;
     }
@@ -93,15 +82,23 @@ pub(super) fn run(flags: &CompareFlags, format: OutputFormat) -> Result<Ended, F
         text.append(left_out.join("\n"));
     }
     text.append(format!("\n{}", comparison.verdict()));
-    if let Some(out) = &flags.out {
+    if let Some(out) = &flags.to.out {
         text.append(format!("\nComparison in {}", out.display()));
     }
-    let found = || Ok(json::comparison(&comparison));
+    let found = || Ok(to_json(&comparison));
     tell(format, flags.quiet, found, || text)?;
     Ok(match comparison.differs() {
         true => Ended::Differs,
         false => Ended::Done,
     })
+}
+
+/// What a comparison found.
+fn to_json(comparison: &Comparison) -> Value {
+    let mut value = json!(comparison);
+    value["differs"] = comparison.differs().into();
+    value["verdict"] = comparison.verdict().into();
+    value
 }
 
 /// Refuses a folder without a table of cycles.
@@ -185,15 +182,7 @@ fn open(path: &Path, other: Option<&SweepTable>) -> Result<Opened, Failure> {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    let name = path.display();
-    match read_limited(path, MAX_BYTES) {
-        Ok(bytes) if bytes.len() <= MAX_BYTES => Ok(bytes),
-        Ok(_) => Err(Failure::input(format!(
-            "{name} is larger than {} MB",
-            MAX_BYTES / 1_000_000
-        ))),
-        Err(error) => Err(Failure::input(format!("cannot read {name}: {error}"))),
-    }
+    read_bytes(path, MAX_BYTES)
 }
 
 /// `COLUMN=RELATIVE`.

@@ -1,19 +1,18 @@
 //! `contact-dma identify`: from measured cycles to a material.
 
-use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::Ordering;
 
 use clap::Args;
 
-use super::arguments::{OutputFormat, folder, threads};
-use super::interruption;
-use super::material::{commented, draw, print_place};
-use super::{Ended, Failure, default_folder, json, meant_for, open_document, print};
+use super::failure::{Ended, Failure};
+use super::flags::RunFlags;
+use super::folders::{folder_of, print_place, write_result};
+use super::output::{OutputFormat, print, print_json};
+use super::{interruption, meant_for};
 use crate::identify::{IdentifyError, curves, identify};
 use crate::input::identify_file;
 use crate::report::caption::Setting;
-use crate::report::figure::press::Files;
 use crate::report::identify::{IdentifyReport, summary};
 use crate::report::text::Text;
 use crate::report::{figure, page};
@@ -27,52 +26,28 @@ Examples:
   contact-dma identify sweeps/identify-polymer.toml
   contact-dma identify measured.toml --set identify.branches=2 --out /tmp/material
 
-The file names a table of measured cycles under [identify], with the columns of sweep.csv
-(energy_loss_j, phase_lag_rad, approach_max_m and so on, errors beside them where they are
-known), and has the [indenter], the [drive] and the poisson_ratio of the measurement. Where
-[drive] has segments, the table is a history: time_s and approach_m, or load_n.
-
-Written to the output folder: material.toml (a [material] block for a sweep), prony.csv,
-summary.json, fit.csv (data and model), moduli.csv (E' and E'' with bands), resolved.toml
-(the file with every default), figures as SVG and PNG, index.html.")]
+The file names a table of measured cycles under [identify], with the columns of sweep.csv, and
+has the [indenter], the [drive] and the poisson_ratio of the measurement. The folder opens with
+index.html, one page of everything; material.toml is a [material] block for a sweep.")]
 pub(super) struct IdentifyFlags {
-    /// The identification file (TOML); - reads standard input, from which paths start in the working folder
-    pub(super) file: PathBuf,
-    /// Folder for the results [default: reports/<name of the file>]
-    #[arg(long, value_name = "DIR", value_parser = folder())]
-    pub(super) out: Option<PathBuf>,
-    /// Change one key of the file, for example identify.branches=2; may be repeated
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub(super) set: Vec<String>,
-    /// Number of threads [default: one per processor, at most four for each]; the results do not depend on it
-    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
-    pub(super) threads: Option<NonZeroUsize>,
-    /// Write only tables, without figures and page
-    #[arg(long)]
-    pub(super) no_figures: bool,
-    /// Replace another result in the output folder, or add to a folder that has files of others, of which none is touched
-    #[arg(long)]
-    pub(super) force: bool,
-    /// Print nothing but errors
-    #[arg(long, short)]
-    pub(super) quiet: bool,
+    #[command(flatten)]
+    run: RunFlags,
 }
 
 /// Runs the command.
 pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, Failure> {
-    let document = open_document(&flags.file, &flags.set)?;
-    meant_for::identify(&document, &flags.file)?;
+    let flags = &flags.run;
+    let document = meant_for::open(&meant_for::IDENTIFICATION, &flags.file, &flags.set)?;
     let plan = identify_file::plan(&document)?;
-    let default = default_folder(&flags.file);
     let target = Target {
-        folder: flags.out.as_deref().unwrap_or(&default),
+        folder: &folder_of(flags),
         kind: Kind::Identification,
-        force: flags.force,
+        force: flags.work.force,
         reads: &document.files(),
     };
     target.check()?;
     let interrupt = interruption::keep_finished();
-    let pool = run::pool(run::useful_threads(flags.threads)).map_err(Failure::run)?;
+    let pool = run::pool(flags.work.threads()).map_err(Failure::run)?;
     let made = pool.install(|| {
         let found = identify(&plan, &interrupt)?;
         let curves = curves(&plan, &found, &interrupt)?;
@@ -90,24 +65,21 @@ pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, 
         curves: &curves,
     };
     let block = block(&report)?;
-    let files = Files::default();
-    for (name, bytes) in report.files(&block) {
-        files.insert(name, bytes);
-    }
-    if !flags.no_figures {
-        let figures = figure::identify::figures(&report);
-        draw(&files, &figures, &Setting::default(), |pictures, _| {
-            page::identify::page(&report, &figures, &block, pictures)
-        })?;
-    }
-    target.write(files.into_vec())?;
+    let figures = match flags.no_figures {
+        true => Vec::new(),
+        false => figure::identify::figures(&report),
+    };
+    let drawn = (&figures[..], &Setting::default());
+    write_result(&target, report.files(&block), drawn, |pictures, _| {
+        page::identify::page(&report, &figures, &block, pictures)
+    })?;
     match format {
         OutputFormat::Json => {
             let mut value = summary::summary(&report);
             value["material_toml"] = block.into();
-            json::print(&value)
+            print_json(&value)
         }
-        OutputFormat::Text if flags.quiet => Ok(Ended::Done),
+        OutputFormat::Text if flags.work.quiet => Ok(Ended::Done),
         OutputFormat::Text => {
             let mut text = Text::from(format!("{}\n\n", plan.title));
             text.append(report.text());
@@ -138,5 +110,5 @@ fn block(report: &IdentifyReport<'_>) -> Result<String, Failure> {
         .plan
         .material_of(report.found)
         .map_err(Failure::run)?;
-    Ok(commented(&text) + &resolved::material_text(&material))
+    Ok(text.as_comments() + &resolved::material_text(&material))
 }

@@ -4,17 +4,50 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use clap::Args;
+use clap::builder::TypedValueParser;
 use serde_json::json;
 
-use super::arguments::{ExportFlags, OutputFormat};
-use super::{Ended, Failure, json, material, print, write_out};
+use super::failure::{Ended, Failure};
+use super::flags::named;
+use super::material_show::load;
+use super::output::{OutputFormat, print, print_json, write_out};
 use crate::material::export::{self, Export, Program};
 use crate::report::text::Text;
 use crate::sweep::store::write_atomically;
 
+#[derive(Debug, Args)]
+pub(super) struct ExportFlags {
+    /// A name of the library, or a file with a [material] block; - reads standard input
+    material: String,
+    /// The program
+    #[arg(long = "to", value_name = "PROGRAM", value_parser = program())]
+    program: Program,
+    /// The file to write; links are followed, and devices and pipes written to [default: standard output]
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Replace a file that this command has not written
+    #[arg(long, requires = "out")]
+    force: bool,
+}
+
+/// One of the programs that a material is written for.
+fn program() -> impl TypedValueParser<Value = Program> {
+    named(Program::ALL.map(|program| {
+        let help = match program {
+            Program::Abaqus => "*ELASTIC, *VISCOELASTIC, TIME=PRONY, *TRS",
+            Program::Ansys => "TB,PRONY in shear and bulk, TB,SHIFT",
+            Program::LsDyna => "*MAT_GENERAL_VISCOELASTIC (076)",
+            Program::Comsol => "Table of branches of the Viscoelasticity node",
+            Program::Csv => "Columns modulus_pa, time_s; the equilibrium modulus first",
+        };
+        (program, program.name(), help)
+    }))
+}
+
 /// Runs the command.
 pub(super) fn run(flags: &ExportFlags, format: OutputFormat) -> Result<Ended, Failure> {
-    let (material, _, reads) = material::load(&flags.material)?;
+    let (material, _, reads) = load(&flags.material)?;
     let program = flags.program;
     let export = export::export(&material, material.origin.shift.as_ref(), program)
         .map_err(Failure::input)?;
@@ -22,7 +55,7 @@ pub(super) fn run(flags: &ExportFlags, format: OutputFormat) -> Result<Ended, Fa
         write_to(file, &export.text, flags.force, &reads)?;
     }
     match (format, &flags.out) {
-        (OutputFormat::Json, _) => json::print(&json!({
+        (OutputFormat::Json, _) => print_json(&json!({
             "program": program.name(),
             "file": flags.out,
             "text": export.text,

@@ -1,35 +1,157 @@
 //! `contact-dma material fit`: from a table of measured data to a material block.
 
-use std::path::Path;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 
-use super::arguments::{DynamicFlags, FitFlags, FitQuantity, OutputFormat};
-use super::material::{commented, draw, print_place};
-use super::{Ended, Failure, json, material_fit_dynamic, print};
-use crate::input::dynamic::DynamicFormat;
+use clap::builder::TypedValueParser;
+use clap::{Args, ValueEnum};
+
+use super::failure::{Ended, Failure};
+use super::flags::{OutFlags, named};
+use super::folders::{print_place, write_result};
+use super::material_show::{fit_json, to_json};
+use super::output::{OutputFormat, print, print_json, write_out};
+use crate::input::dynamic::{DynamicFormat, FORMATS};
+use crate::input::keys::material::{MOST_BRANCHES, MOST_REPLICAS};
 use crate::input::table_file;
 use crate::material::fit;
-use crate::material::{Material, MaterialFunction};
+use crate::material::{Material, MaterialFunction, ModulusKind};
+use crate::quantity::{Dimension, parse};
 use crate::report::caption::Setting;
 use crate::report::dynamic::tables;
-use crate::report::figure::press::Files;
 use crate::report::page::{self, material::About};
 use crate::report::text::Text;
 use crate::report::{self, figure};
 use crate::sweep::plan::resolved;
-use crate::sweep::store::manifest::{Kind, Target};
+use crate::sweep::store::manifest::Kind;
 
-/// Runs the command; `data_format` is what `--format` says of the data.
+#[derive(Debug, Args)]
+pub(super) struct FitFlags {
+    /// The table (CSV); files of dynamic data
+    #[arg(required = true, value_name = "FILE")]
+    pub(super) data: Vec<PathBuf>,
+    /// What the table holds
+    #[arg(long, value_name = "QUANTITY")]
+    pub(super) quantity: FitQuantity,
+    /// Which modulus, or which modulus the compliance belongs to
+    #[arg(long, value_name = "KIND", value_parser = modulus())]
+    pub(super) modulus: ModulusKind,
+    /// Poisson ratio of the material; dynamic data are fitted without one too, and the block then says where it is to be written
+    #[arg(
+        long, value_name = "NU", allow_negative_numbers = true,
+        required_if_eq_any([("quantity", "creep"), ("quantity", "relaxation")])
+    )]
+    pub(super) poisson_ratio: Option<f64>,
+    /// Whether the material flows without end; without this flag the data decide
+    #[arg(long, value_name = "true|false")]
+    pub(super) flow: Option<bool>,
+    #[command(flatten)]
+    pub(super) dynamic: DynamicFlags,
+    #[command(flatten)]
+    pub(super) to: OutFlags,
+}
+
+/// What is made of dynamic data, and how.
+#[derive(Debug, Default, Args, PartialEq)]
+#[command(next_help_heading = "Dynamic data")]
+pub(super) struct DynamicFlags {
+    /// Temperature of the master curve, for example '25 °C' [default: that of the middle isotherm]
+    #[arg(long, value_name = "T", value_parser = temperature, allow_hyphen_values = true)]
+    pub(super) reference_temperature: Option<f64>,
+    /// How isotherms are shifted: free, each for itself; wlf or arrhenius, by a law; none; or a file of shift factors
+    /// (temperature_c,log10_a_t) [default: free]
+    #[arg(long, value_name = "free|wlf|arrhenius|none|FILE")]
+    pub(super) shift: Option<PathBuf>,
+    /// Shift isotherms along the moduli too
+    #[arg(long)]
+    pub(super) vertical_shift: bool,
+    /// Number of branches [default: auto, as many as the data resolve]
+    #[arg(long, value_name = "auto|N", value_parser = branches)]
+    pub(super) branches: Option<Branches>,
+    /// Replicas of the series that carry the noise of the data on [default: 0]
+    #[arg(long, value_name = "N", value_parser = replicas)]
+    pub(super) replicas: Option<usize>,
+    /// Format of the files [default: found from what they hold]
+    #[arg(long, value_name = "FORMAT", value_parser = data_format())]
+    pub(super) data_format: Option<DynamicFormat>,
+}
+
+/// Branches of a series.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Branches {
+    Auto,
+    Number(NonZeroUsize),
+}
+
+fn branches(text: &str) -> Result<Branches, String> {
+    let number = text
+        .parse()
+        .ok()
+        .filter(|number: &NonZeroUsize| number.get() <= MOST_BRANCHES);
+    match (text, number) {
+        ("auto", _) => Ok(Branches::Auto),
+        (_, Some(number)) => Ok(Branches::Number(number)),
+        _ => Err(format!(
+            "`{text}` is no number of branches: write auto, or a whole number from 1 to {MOST_BRANCHES}"
+        )),
+    }
+}
+
+fn replicas(text: &str) -> Result<usize, String> {
+    let number = text.parse().ok().filter(|number| *number <= MOST_REPLICAS);
+    number.ok_or_else(|| {
+        format!("`{text}` is no number of replicas: write a whole number from 0 to {MOST_REPLICAS}")
+    })
+}
+
+fn temperature(text: &str) -> Result<f64, String> {
+    let bare: Result<f64, _> = text.trim().parse();
+    if bare.is_ok() {
+        return Err(format!(
+            "`{text}` has no unit: write '{text} °C' or '{text} K'"
+        ));
+    }
+    let temperature_k = parse(text, Dimension::Temperature).map_err(|error| error.to_string())?;
+    match temperature_k > 0.0 {
+        true => Ok(temperature_k),
+        false => Err(format!(
+            "`{text}` is not above absolute zero: write a temperature above -273.15 °C"
+        )),
+    }
+}
+
+fn data_format() -> impl TypedValueParser<Value = DynamicFormat> {
+    named(FORMATS.map(|(name, format)| (format, name, "")))
+}
+
+/// What a file of measured data holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum FitQuantity {
+    /// Creep compliance
+    Creep,
+    /// Relaxation modulus
+    Relaxation,
+    /// Storage and loss modulus over frequency, at one temperature or at several
+    Dynamic,
+}
+
+fn modulus() -> impl TypedValueParser<Value = ModulusKind> {
+    named([ModulusKind::Longitudinal, ModulusKind::Shear].map(|kind| {
+        let help = match kind {
+            ModulusKind::Longitudinal => "Uniaxial: E, D",
+            ModulusKind::Shear => "Shear: G, J",
+        };
+        (kind, kind.name(), help)
+    }))
+}
+
+/// A creep compliance or relaxation modulus over time.
 pub(super) fn run(
     flags: &FitFlags,
+    function: MaterialFunction,
     format: OutputFormat,
-    data_format: Option<DynamicFormat>,
 ) -> Result<Ended, Failure> {
-    let function = match flags.quantity {
-        FitQuantity::Dynamic => return material_fit_dynamic::run(flags, format, data_format),
-        FitQuantity::Creep => MaterialFunction::Creep,
-        FitQuantity::Relaxation => MaterialFunction::Relaxation,
-    };
-    if flags.dynamic != DynamicFlags::default() || data_format.is_some() {
+    if flags.dynamic != DynamicFlags::default() {
         return Err(Failure::input(
             "--reference-temperature, --shift, --vertical-shift, --branches, --replicas and --data-format are for --quantity dynamic",
         ));
@@ -39,50 +161,37 @@ pub(super) fn run(
             "creep and relaxation are fitted to one table: name one file, and --poisson-ratio",
         ));
     };
-    fit_table(flags, (data, function, poisson_ratio), format)
-}
-
-/// The folder of a fit, where one is asked for.
-pub(super) fn target(flags: &FitFlags) -> Option<Target<'_>> {
-    flags.out.as_deref().map(|folder| Target {
-        folder,
-        kind: Kind::MaterialFit,
-        force: flags.force,
-        reads: &flags.data,
-    })
-}
-
-/// A creep compliance or relaxation modulus over time.
-fn fit_table(
-    flags: &FitFlags,
-    (data, function, poisson_ratio): (&Path, MaterialFunction, f64),
-    format: OutputFormat,
-) -> Result<Ended, Failure> {
-    let target = target(flags);
-    target.map_or(Ok(()), |target| target.check())?;
+    let target = flags.to.target(Kind::MaterialFit, &flags.data)?;
     let table = table_file::read(data, function, flags.modulus)?;
     let fit = fit::fit(&table, flags.flow).map_err(Failure::input)?;
     let material = fit.material(poisson_ratio).map_err(Failure::input)?;
     let block = block(data, &material);
     match format {
-        OutputFormat::Json => json::print(&json::fit(&fit, &material)?)?,
+        OutputFormat::Json => {
+            let mut value = to_json(&material)?;
+            value["fit"] = fit_json(fit.report());
+            print_json(&value)?
+        }
         OutputFormat::Text => {
             let mut text = report::fit::text(fit.report());
             text.append_apart(report::fit::branches(&fit));
-            print_block(flags, text, &block)?
+            print_fit(flags, &text, &block)?
         }
     };
     let Some(target) = target else {
         return Ok(Ended::Done);
     };
-    let files = Files::default();
-    files.insert("material.toml", block.clone());
-    if let Some(series) = material.relaxation() {
-        files.insert("prony.csv", tables::prony(series));
-    }
+    let prony = material.relaxation().map(tables::prony);
+    let files = [
+        ("material.toml", Some(block.clone().into_bytes())),
+        ("prony.csv", prony),
+    ];
+    let files = files
+        .into_iter()
+        .filter_map(|(name, bytes)| Some((name, bytes?)));
     let figures = figure::fit::figures(&table, &fit);
     let setting = Setting::of_material(&material);
-    draw(&files, &figures, &setting, |pictures, figure| {
+    write_result(&target, files, (&figures, &setting), |pictures, figure| {
         let name = data.file_name().unwrap_or_default();
         let about = About {
             title: &format!("Fit to {}", name.display()),
@@ -94,17 +203,16 @@ fn fit_table(
         };
         page::material::page(&material, &about)
     })?;
-    target.write(files.into_vec())?;
     print_place("Material and figures", target.folder, format)
 }
 
-/// Prints a fit, with the block to paste where that does not go into a file.
-pub(super) fn print_block(flags: &FitFlags, mut text: Text, block: &str) -> Result<Ended, Failure> {
-    if flags.out.is_none() {
-        text.blank();
-        text.append(block);
+/// Prints a fit; the block to paste too, as it is, where it does not go into a file.
+pub(super) fn print_fit(flags: &FitFlags, text: &Text, block: &str) -> Result<Ended, Failure> {
+    print(text)?;
+    match flags.to.out {
+        None => write_out(&format!("\n{block}")),
+        Some(_) => Ok(Ended::Done),
     }
-    print(&text)
 }
 
 /// The material block of a sweep file, ready to paste, every number exact.
@@ -113,7 +221,7 @@ fn block(data: &Path, material: &Material) -> String {
     format!(
         "# From {}\n{}{}",
         data.display().to_string().escape_debug(),
-        commented(&fit),
+        fit.as_comments(),
         resolved::material_text(material)
     )
 }

@@ -4,43 +4,30 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::arguments::{Branches, FitFlags, OutputFormat};
-use super::material::{commented, draw, print_place};
-use super::material_fit::print_block;
-use super::{Ended, Failure, json, material_fit};
-use crate::input::dynamic::{self, DynamicFormat};
+use super::failure::{Ended, Failure};
+use super::folders::{print_place, write_result};
+use super::material_fit::{Branches, FitFlags, print_fit};
+use super::output::{OutputFormat, print_json};
+use crate::input::dynamic;
 use crate::material::dynamic::master_curve::ShiftChoice;
 use crate::material::dynamic::{Choices, characterise};
 use crate::report::caption::Setting;
 use crate::report::dynamic::{DynamicReport, Source, summary, tables};
-use crate::report::figure::press::Files;
 use crate::report::{figure, page};
 use crate::sweep::plan::resolved;
-use crate::sweep::store::manifest::Target;
+use crate::sweep::store::manifest::Kind;
 
 /// Runs the command.
-pub(super) fn run(
-    flags: &FitFlags,
-    format: OutputFormat,
-    named: Option<DynamicFormat>,
-) -> Result<Ended, Failure> {
+pub(super) fn run(flags: &FitFlags, format: OutputFormat) -> Result<Ended, Failure> {
     if flags.flow.is_some() {
         return Err(Failure::input(
             "--flow is for creep and relaxation: the equilibrium modulus of dynamic data is fitted freely, and may be zero",
         ));
     }
-    let reads: Vec<PathBuf> = flags
-        .data
-        .iter()
-        .chain(&flags.dynamic.shift)
-        .cloned()
-        .collect();
-    let target = material_fit::target(flags).map(|target| Target {
-        reads: &reads,
-        ..target
-    });
-    target.map_or(Ok(()), |target| target.check())?;
-    let asked = data_format(flags.dynamic.data_format, named)?;
+    let shift = flags.dynamic.shift.iter();
+    let reads: Vec<PathBuf> = flags.data.iter().chain(shift).cloned().collect();
+    let target = flags.to.target(Kind::MaterialFit, &reads)?;
+    let asked = flags.dynamic.data_format;
     let choices = choices(flags)?;
     let file = dynamic::read(&flags.data, asked, flags.modulus)?;
     let made = characterise(&file.data, &choices).map_err(|error| refused(flags, error))?;
@@ -67,42 +54,26 @@ pub(super) fn run(
     let shifting = shifting_block(flags, &report)?;
     let shifting = shifting.as_deref();
     match format {
-        OutputFormat::Json => json::print(&printed_json(&report, &block, shifting))?,
+        OutputFormat::Json => print_json(&printed_json(&report, &block, shifting))?,
         OutputFormat::Text => {
             let mut text = report.text();
             text.append_apart(report.shift_table());
             text.append_apart(report.branches());
-            print_block(flags, text, &block)?
+            print_fit(flags, &text, &block)?
         }
     };
     let Some(target) = target else {
         return Ok(Ended::Done);
     };
-    let files = Files::default();
-    for (name, bytes) in report.files(&block, shifting) {
-        files.insert(name, bytes);
-    }
     let figures = figure::dynamic::figures(&report);
-    draw(&files, &figures, &Setting::default(), |pictures, _| {
-        page::dynamic::page(&report, &figures, &block, pictures)
-    })?;
-    target.write(files.into_vec())?;
+    let drawn = (&figures[..], &Setting::default());
+    write_result(
+        &target,
+        report.files(&block, shifting),
+        drawn,
+        |pictures, _| page::dynamic::page(&report, &figures, &block, pictures),
+    )?;
     print_place("Material and figures", target.folder, format)
-}
-
-/// The format by `--data-format` or by `--format`, which may say the same.
-fn data_format(
-    own: Option<DynamicFormat>,
-    named: Option<DynamicFormat>,
-) -> Result<Option<DynamicFormat>, Failure> {
-    match (own, named) {
-        (Some(own), Some(named)) if own != named => Err(Failure::input(format!(
-            "--data-format {} and --format {} name two formats: give one",
-            own.name(),
-            named.name()
-        ))),
-        _ => Ok(own.or(named)),
-    }
 }
 
 fn choices(flags: &FitFlags) -> Result<Choices, Failure> {
@@ -155,7 +126,7 @@ fn block(flags: &FitFlags, report: &DynamicReport<'_>) -> Result<String, Failure
         Some(_) => resolved::material_text(&material),
         None => resolved::material_text_without_poisson_ratio(&material),
     };
-    Ok(commented(&report.text()) + &block)
+    Ok(report.text().as_comments() + &block)
 }
 
 /// The block of the same series with its temperature and the law by which it shifts to others; `None` where the data prefer no law, or

@@ -3,7 +3,8 @@
 
 use std::path::Path;
 
-use super::Failure;
+use super::documents::open_document;
+use super::failure::Failure;
 use crate::input::diagnostic::Problems;
 use crate::input::document::Document;
 use crate::input::keys;
@@ -11,37 +12,29 @@ use crate::input::segments_block::SEGMENTS;
 
 /// A kind of file by the command that takes it, and how it is known.
 #[derive(PartialEq)]
-struct Kind {
+pub(super) struct Kind {
     command: &'static str,
     known_by: &'static str,
 }
 
-const SWEEP: Kind = Kind {
+pub(super) const SWEEP: Kind = Kind {
     command: "sweep",
     known_by: "a sweep: it has a table [sweep]",
 };
-const SCENARIO: Kind = Kind {
+pub(super) const SCENARIO: Kind = Kind {
     command: "simulate",
     known_by: "a scenario: its [drive] has segments",
 };
-const IDENTIFICATION: Kind = Kind {
+pub(super) const IDENTIFICATION: Kind = Kind {
     command: "identify",
     known_by: "an identification: it has a table [identify]",
 };
 
-/// Refuses a scenario, and an identification.
-pub(super) fn sweep(document: &Document, file: &Path) -> Result<(), Failure> {
-    refuse_other(&SWEEP, document, file)
-}
-
-/// Refuses a sweep, and an identification.
-pub(super) fn simulate(document: &Document, file: &Path) -> Result<(), Failure> {
-    refuse_other(&SCENARIO, document, file)
-}
-
-/// Sends a sweep and a scenario to the commands that take them.
-pub(super) fn identify(document: &Document, file: &Path) -> Result<(), Failure> {
-    refuse_other(&IDENTIFICATION, document, file)
+/// The file as changed by the `--set` flags, where it is of the kind that the command takes.
+pub(super) fn open(wanted: &Kind, file: &Path, set: &[String]) -> Result<Document, Failure> {
+    let document = open_document(file, set)?;
+    refuse_other(wanted, &document, file)?;
+    Ok(document)
 }
 
 fn refuse_other(wanted: &Kind, document: &Document, file: &Path) -> Result<(), Failure> {

@@ -2,8 +2,8 @@
 
 use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 
-use super::plan::megabytes;
 use super::progress::line;
+use crate::report::number::two_digits;
 
 /// Memory (bytes) that is free for a new program here, within the limits of a container or batch job; `None` where the system
 /// does not tell.
@@ -42,6 +42,14 @@ pub(super) fn warn_if_short(bytes_per_thread: u64, threads: usize, drawing_bytes
         .iter()
         .chain(&of_figures)
         .for_each(|text| line(text));
+}
+
+/// Bytes in the unit that people would use for them.
+pub(super) fn megabytes(bytes: u64) -> String {
+    match bytes as f64 / 1e6 {
+        mega if mega < 1e3 => format!("{} MB", two_digits(mega)),
+        mega => format!("{} GB", two_digits(mega / 1e3)),
+    }
 }
 
 fn warning(bytes_per_thread: u64, threads: usize, free: u64) -> Option<String> {

@@ -4,17 +4,23 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::arguments::OutputFormat;
-use super::{Ended, Failure, json, meant_for, open_document, tell};
-use crate::engine::{EngineKind, SolverPlan};
+use serde_json::{Value, json};
+
+use super::failure::{Ended, Failure};
+use super::meant_for;
+use super::memory::{free_here, megabytes};
+use super::output::{OutputFormat, tell};
+use crate::engine::EngineKind;
 use crate::figures::paper::drawing_bytes;
-use crate::indenter::Indenter;
 use crate::input::sweep_file;
 use crate::quantity::{Dimension, format_human};
-use crate::report::number::{four_digits, varied};
+use crate::report::machine;
+use crate::report::number::{four_digits, two_digits, varied as varied_value};
+use crate::report::table::Cell;
 use crate::report::text::{Column, Table, Text};
+use crate::report::words::nodes;
 use crate::sweep::case::Setup;
-use crate::sweep::plan::{Axes, Condition, SweepPlan};
+use crate::sweep::plan::{Axes, AxisValues, Condition, SweepPlan};
 use crate::sweep::share::cost::Cost;
 
 #[derive(Debug, Args)]
@@ -36,9 +42,7 @@ const LISTED: usize = 100;
 /// Runs the command.
 pub(super) fn run(flags: &PlanFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let set = with_accuracy(&flags.set, flags.accuracy)?;
-    let document = open_document(&flags.file, &set)?;
-    meant_for::sweep(&document, &flags.file)?;
-    let plan = sweep_file::plan(&document)?;
+    let plan = sweep_file::plan(&meant_for::open(&meant_for::SWEEP, &flags.file, &set)?)?;
     show(&Setup::new(plan).map_err(Failure::input)?, format)
 }
 
@@ -59,13 +63,13 @@ pub(super) fn with_accuracy(set: &[String], accuracy: Option<f64>) -> Result<Vec
 /// Prints cases and cost of a sweep.
 pub(super) fn show(setup: &Setup, format: OutputFormat) -> Result<Ended, Failure> {
     let cost = Cost::of(setup, drawing_bytes(&setup.plan().figures, 1)).map_err(Failure::input)?;
-    let found = || Ok(json::plan(setup, &cost));
+    let found = || Ok(to_json(setup, &cost));
     tell(format, false, found, || text(setup, &cost))
 }
 
 fn text(setup: &Setup, cost: &Cost) -> Text {
     let plan = setup.plan();
-    let free = super::memory::free_here();
+    let free = free_here();
     let refined = match plan.refine {
         true => ", added frequencies not",
         false => "",
@@ -97,7 +101,7 @@ fn text(setup: &Setup, cost: &Cost) -> Text {
 }
 
 /// One line per case.
-fn table(plan: &SweepPlan, cost: &Cost) -> Text {
+fn table(plan: &SweepPlan, cost: &Cost) -> Table {
     let unit = plan.figures.frequency_unit;
     let memory = megabytes(cost.memory_bytes);
     // What an axis varies of something else than the drive takes the place of the drive, which is then the same for all.
@@ -115,7 +119,7 @@ fn table(plan: &SweepPlan, cost: &Cost) -> Text {
         true => vec![short(drive.mean()), short(drive.amplitude())],
         false => {
             let own = own.iter();
-            let own = own.filter_map(|(axis, of)| Some(varied(of, values.get(*axis)?)));
+            let own = own.filter_map(|(axis, of)| Some(varied_value(of, values.get(*axis)?)));
             vec![own.collect::<Vec<_>>().join(", ")]
         }
     };
@@ -140,35 +144,18 @@ fn table(plan: &SweepPlan, cost: &Cost) -> Text {
         let cells = first.into_iter().chain(of_case(&case.case.condition));
         table.row(cells.chain(last));
     }
-    let mut text = Text::from(table);
     if cost.cases.len() > LISTED {
-        text.line(format!("  and {} more", cost.cases.len() - LISTED));
+        table.remark(format!("  and {} more", cost.cases.len() - LISTED));
     }
-    text
+    table
 }
 
-/// A number as it was given, with an exponent where it would otherwise have many digits.
+/// A number in at most six digits, with an exponent where it would otherwise have many zeros.
 fn short(value: f64) -> String {
+    let value: f64 = format!("{value:.5e}").parse().unwrap_or(value);
     match value.abs() {
         1e-4..1e7 | 0.0 => value.to_string(),
         _ => format!("{value:e}"),
-    }
-}
-
-/// The nodes of an engine, in words.
-pub(super) fn nodes(solver: &SolverPlan, indenter: &dyn Indenter) -> String {
-    match (solver.engine, indenter.own_cells()) {
-        (EngineKind::Axisymmetric, _) => format!("{} springs", solver.springs),
-        (EngineKind::HalfSpace, Some((x, y))) => format!("{x} x {y} cells of the map"),
-        (EngineKind::HalfSpace, None) => format!("{0} x {0} cells", solver.cells),
-    }
-}
-
-/// Bytes in the unit that people would use for them.
-pub(super) fn megabytes(bytes: u64) -> String {
-    match bytes as f64 / 1e6 {
-        mega if mega < 1e3 => format!("{} MB", two_digits(mega)),
-        mega => format!("{} GB", two_digits(mega / 1e3)),
     }
 }
 
@@ -183,8 +170,52 @@ fn spoken(time_s: f64) -> String {
     format!("{} {unit}", two_digits(time_s / unit_s))
 }
 
-/// Two significant digits of a positive number, without an exponent.
-fn two_digits(value: f64) -> String {
-    let decimals = (1.0 - value.log10().floor()).clamp(0.0, 6.0) as usize;
-    format!("{value:.decimals$}")
+/// The values of axes, blocks of a list by their names; of one axis alone its value, of none nothing.
+fn varied(plan: &SweepPlan, values: &AxisValues) -> Value {
+    let over = plan.axes.iter().flat_map(|axes| &axes.over);
+    let values = over.zip(values.all());
+    let told = values.map(|(varied, value)| machine::value(Cell::of_axis(varied, Some(*value))));
+    let mut told: Vec<_> = told.collect();
+    match told.len() {
+        0 | 1 => told.pop().unwrap_or_default(),
+        _ => told.into(),
+    }
+}
+
+/// What a sweep would compute, and what that costs.
+fn to_json(setup: &Setup, cost: &Cost) -> Value {
+    let plan = setup.plan();
+    let own = plan.base.contact.indenter.own_cells();
+    let (springs, cells) = match (plan.solver.engine, own) {
+        (EngineKind::Axisymmetric, _) => (Some(plan.solver.springs), None),
+        (EngineKind::HalfSpace, Some((x, y))) => (None, Some([x, y])),
+        (EngineKind::HalfSpace, None) => (None, Some([plan.solver.cells; 2])),
+    };
+    let cases = cost.cases.iter().map(|case| {
+        json!({
+            "index": case.case.index,
+            "angular_frequency_rad_per_s": case.case.angular_frequency_rad_per_s,
+            "varied": varied(plan, &case.case.condition.values),
+            "drive_mean": case.case.condition.drive.mean(),
+            "drive_amplitude": case.case.condition.drive.amplitude(),
+            "cycles": case.cycles.ceil() as u64,
+            "time_s": case.time_s,
+        })
+    });
+    json!({
+        "title": plan.title,
+        "engine": plan.solver.engine.name(),
+        "springs": springs,
+        "cells": cells,
+        "steps_per_cycle": plan.cycle.steps,
+        "cases": cases.collect::<Vec<_>>(),
+        "time_on_one_thread_s": cost.on_threads_s(1),
+        "time_of_peaks_s": cost.peaks_s,
+        "time_of_figures_s": cost.report_s,
+        "disk_bytes": cost.disk_bytes,
+        "time_per_step_s": cost.step_s,
+        "memory_per_thread_bytes": cost.memory_bytes,
+        "memory_of_results_bytes": cost.results_bytes,
+        "useful_shards": cost.shards(),
+    })
 }

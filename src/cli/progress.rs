@@ -21,43 +21,33 @@ const LOCK: &str = ".contact-dma.lock";
 
 /// Shows progress on standard error.
 pub(super) struct Shown {
-    total: AtomicUsize,
+    bar: ProgressBar,
+    quiet: bool,
     unit: FrequencyUnit,
     axes: Vec<Varied>,
     done: AtomicUsize,
     found: AtomicUsize,
-    how: How,
-}
-
-enum How {
-    Bar(ProgressBar),
-    Lines,
-    Silent,
 }
 
 impl Shown {
     /// Progress of so many cases of a sweep.
     pub(super) fn new(plan: &SweepPlan, total: usize, quiet: bool) -> Self {
-        let template = "{wide_bar} {pos}/{len} cases, {eta} left  {msg}";
-        let bar = bar(total, template, quiet);
-        let how = match bar.is_hidden() {
-            _ if quiet => How::Silent,
-            true => How::Lines,
-            false => How::Bar(bar),
-        };
-        if let How::Bar(bar) = &how {
+        let bar = bar(
+            total,
+            "{wide_bar} {pos}/{len} cases, {eta} left  {msg}",
+            quiet,
+        );
+        if !bar.is_hidden() {
             bar.enable_steady_tick(Duration::from_millis(200));
         }
+        let axes = plan.axes.as_ref();
         Self {
-            total: AtomicUsize::new(total),
+            bar,
+            quiet,
             unit: plan.figures.frequency_unit,
-            axes: plan
-                .axes
-                .as_ref()
-                .map_or(Vec::new(), |axes| axes.over.clone()),
+            axes: axes.map_or(Vec::new(), |axes| axes.over.clone()),
             done: AtomicUsize::new(0),
             found: AtomicUsize::new(0),
-            how,
         }
     }
 
@@ -70,21 +60,27 @@ impl Shown {
         values.map(one).collect()
     }
 
+    /// A line, where there is no bar and nobody asked for quiet.
+    fn line_without_bar(&self, text: impl FnOnce() -> String) {
+        if self.bar.is_hidden() && !self.quiet {
+            line(&text());
+        }
+    }
+
     /// Takes the bar away, so that the table stands alone. Returns how many cases had records before.
     pub(super) fn finish(&self) -> usize {
-        if let How::Bar(bar) = &self.how {
-            bar.finish_and_clear();
-        }
+        self.bar.finish_and_clear();
         self.found.load(Ordering::Relaxed)
     }
 }
 
-/// A bar on a terminal, nothing elsewhere and where asked to be quiet.
+/// A bar on a terminal, hidden elsewhere and where asked to be quiet.
 pub(super) fn bar(total: usize, template: &str, quiet: bool) -> ProgressBar {
-    if quiet || !io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::with_draw_target(Some(total as u64), ProgressDrawTarget::stderr());
+    let target = match quiet || !io::stderr().is_terminal() {
+        true => ProgressDrawTarget::hidden(),
+        false => ProgressDrawTarget::stderr(),
+    };
+    let bar = ProgressBar::with_draw_target(Some(total as u64), target);
     if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style);
     }
@@ -118,52 +114,43 @@ impl Progress for Shown {
 
     fn case_finished(&self, record: &CaseRecord) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-        match &self.how {
-            How::Bar(bar) => bar.inc(1),
-            How::Lines => line(&format!(
+        self.bar.inc(1);
+        self.line_without_bar(|| {
+            format!(
                 "{done}/{} {}{}: {} after {} cycles",
-                self.total.load(Ordering::Relaxed),
+                self.bar.length().unwrap_or_default(),
                 case(self.unit, record.angular_frequency_rad_per_s),
                 self.varied(record),
                 record.status.name(),
                 record.cycles
-            )),
-            How::Silent => {}
-        }
+            )
+        });
     }
 
     fn cases_found(&self, done: usize, of: usize) {
         self.done.fetch_add(done, Ordering::Relaxed);
         self.found.store(done, Ordering::Relaxed);
-        if let How::Bar(bar) = &self.how {
-            bar.set_position(done as u64);
-        }
+        self.bar.set_position(done as u64);
         self.notice(&format!("{done} of {of} cases were already done"));
     }
 
     fn cases_added(&self, added: usize, found: usize) {
-        let total = self.total.fetch_add(added, Ordering::Relaxed) + added;
-        let done = self.done.fetch_add(found, Ordering::Relaxed) + found;
+        self.done.fetch_add(found, Ordering::Relaxed);
         self.found.fetch_add(found, Ordering::Relaxed);
-        if let How::Bar(bar) = &self.how {
-            bar.set_length(total as u64);
-            bar.set_position(done as u64);
-        }
+        self.bar.inc_length(added as u64);
+        self.bar.inc(found as u64);
     }
 
     fn notice(&self, what: &str) {
-        match &self.how {
-            How::Bar(bar) => bar.suspend(|| line(what)),
-            How::Lines => line(what),
-            How::Silent => {}
+        if !self.quiet {
+            self.bar.suspend(|| line(what));
         }
     }
 
     fn locating_peaks(&self, brackets: usize) {
-        match &self.how {
-            How::Bar(bar) => bar.set_message("locating peaks"),
-            How::Lines if brackets > 0 => line("locating peaks"),
-            _ => {}
+        self.bar.set_message("locating peaks");
+        if brackets > 0 {
+            self.line_without_bar(|| "locating peaks".to_owned());
         }
     }
 }

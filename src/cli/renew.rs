@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgAction, Args};
 
-use super::{Ended, Failure, print, shown_commands};
+use super::failure::{Ended, Failure};
+use super::output::print;
 use crate::input::keys::{self, FileKind};
 use crate::input::{key_reference, schema};
 use crate::report::quantities::{CYCLES, HISTORY, SWEEP, reference};
@@ -25,8 +26,9 @@ pub(super) struct RenewFlags {
 /// The only generated file that takes more than this program.
 const STUBS: &str = "The stubs of the Python package are python/stubs.sh's, which wants maturin.\n";
 
-pub(super) fn run(flags: &RenewFlags) -> Result<Ended, Failure> {
-    let stale = stale(&flags.repository)?;
+/// Runs the command; `program` is the command line, with all commands that the help shows.
+pub(super) fn run(flags: &RenewFlags, program: &clap::Command) -> Result<Ended, Failure> {
+    let stale = stale(&flags.repository, program)?;
     let names: Vec<&str> = stale.keys().map(String::as_str).collect();
     if flags.check && !names.is_empty() {
         return Err(Failure::Run(format!(
@@ -54,9 +56,9 @@ enum Part {
 }
 
 /// The files of a repository that are not what they should be, with what should be in them.
-fn stale(repository: &Path) -> Result<BTreeMap<String, String>, Failure> {
+fn stale(repository: &Path, program: &clap::Command) -> Result<BTreeMap<String, String>, Failure> {
     let mut files: BTreeMap<String, (String, String)> = BTreeMap::new();
-    for (name, part) in parts() {
+    for (name, part) in parts(program) {
         if !files.contains_key(&name) {
             let path = repository.join(&name);
             let text = match (fs::read_to_string(&path), &part) {
@@ -95,7 +97,7 @@ fn between(text: &str, (begin, end): (&str, &str), content: &str) -> Option<Stri
 }
 
 /// Everything generated, by the file that it is in.
-fn parts() -> Vec<(String, Part)> {
+fn parts(program: &clap::Command) -> Vec<(String, Part)> {
     let schema = |(name, kind)| {
         (
             format!("sweeps/schema/{name}.json"),
@@ -117,7 +119,7 @@ fn parts() -> Vec<(String, Part)> {
         let [begin, end] = marks;
         parts.push((file.to_owned(), Part::Between(begin, end, text)));
     };
-    marked("README.md", "commands", block(&commands()));
+    marked("README.md", "commands", block(&commands(program)));
     for (name, path, guide) in [
         ("materials", "material", "src/guide/own_material.md"),
         ("shapes", "indenter", "src/guide/own_indenter.md"),
@@ -172,9 +174,9 @@ fn class(shape: &str) -> String {
 }
 
 /// The commands and what each does, as a table.
-fn commands() -> String {
+fn commands(program: &clap::Command) -> String {
     let mut rows = String::new();
-    for command in shown_commands().get_subcommands() {
+    for command in program.get_subcommands() {
         let below: Vec<_> = command.get_subcommands().collect();
         if below.is_empty() {
             rows.push_str(&command_row("", command));

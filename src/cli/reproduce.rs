@@ -1,14 +1,14 @@
 //! `contact-dma reproduce`: the computed figures of the base paper, from the files that are built into the program.
 
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::arguments::{OutputFormat, folder, threads};
+use super::failure::{Ended, Failure};
+use super::flags::{WorkFlags, folder};
 use super::interruption;
+use super::output::{OutputFormat, tell};
 use super::progress::line;
-use super::{Ended, Failure, tell};
 use crate::input::document::Document;
 use crate::input::figures_block::{self, Figures};
 use crate::input::keys;
@@ -20,7 +20,6 @@ use crate::reproduction::{
     self, Count, FIGURES, Figure, Plans, ReproductionError, SCENARIOS, SWEEPS, Verdict,
 };
 use crate::sweep::plan::figures::FigurePlan;
-use crate::sweep::search::run::useful_threads;
 use crate::sweep::store::manifest::{Kind, Target};
 
 const DEFAULT_FOLDER: &str = "reports/spinu-2018";
@@ -31,31 +30,22 @@ Examples:
   contact-dma reproduce
   contact-dma reproduce --figure 12 --figure 13 --out /tmp/two
 
-The figures are those of S. Spinu, Advances in Tribology 2018, 9432894: 1 and 4 to 13.
-Written to the output folder: figure-NN as SVG and PNG with the data as CSV, claims.csv
-(every number, as the paper states it, exact, and by both engines), and all of it in one
-place: index.html for a browser, README.md for a repository. The scenarios and sweeps behind
-them are in sweeps/spinu-2018/ of the repository.")]
+The figures are those of S. Spinu, Advances in Tribology 2018, 9432894: 1 and 4 to 13. The folder
+opens with index.html; claims.csv has every number as the paper states it, exact, and by both
+engines.")]
 pub(super) struct ReproduceFlags {
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = DEFAULT_FOLDER, value_parser = folder())]
-    pub(super) out: PathBuf,
+    out: PathBuf,
     /// Make this figure alone; may be repeated
     #[arg(long = "figure", value_name = "N", value_parser = figure_number)]
-    pub(super) figures: Vec<u8>,
+    figures: Vec<u8>,
     /// Change how the figures look, for example figures.column=one, as the [figures] table of a
     /// sweep file does; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub(super) set: Vec<String>,
-    /// Number of threads [default: one per processor, at most four for each]; the results do not depend on it
-    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
-    pub(super) threads: Option<NonZeroUsize>,
-    /// Replace another result in the output folder, or add to a folder that has files of others, of which none is touched
-    #[arg(long)]
-    pub(super) force: bool,
-    /// Print nothing but errors
-    #[arg(long, short)]
-    pub(super) quiet: bool,
+    set: Vec<String>,
+    #[command(flatten)]
+    work: WorkFlags,
 }
 
 /// The number of a figure that is computed.
@@ -84,14 +74,14 @@ pub(super) fn run(flags: &ReproduceFlags, format: OutputFormat) -> Result<Ended,
     let target = Target {
         folder: &flags.out,
         kind: Kind::Reproduction,
-        force: flags.force,
+        force: flags.work.force,
         reads: &[],
     };
     target.check()?;
-    let threads = useful_threads(flags.threads);
+    let threads = flags.work.threads();
     let interrupt = interruption::keep_finished();
     let finished = |number: u8| {
-        if !flags.quiet {
+        if !flags.work.quiet {
             line(&format!("figure {number}"));
         }
     };
@@ -110,7 +100,7 @@ pub(super) fn run(flags: &ReproduceFlags, format: OutputFormat) -> Result<Ended,
             "folder": flags.out.display().to_string(),
         }))
     };
-    tell(format, flags.quiet, found, || text(&made, &flags.out))
+    tell(format, flags.work.quiet, found, || text(&made, &flags.out))
 }
 
 /// How the figures are asked to look.

@@ -1,9 +1,11 @@
 //! `contact-dma schema`: the JSON Schema of input files.
 
 use clap::Args;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::TypedValueParser;
 
-use super::{Ended, Failure, write_out};
+use super::failure::{Ended, Failure};
+use super::flags::named;
+use super::output::write_out;
 use crate::input::keys::FileKind;
 use crate::input::schema;
 
@@ -22,13 +24,8 @@ pub(super) struct SchemaFlags {
 }
 
 fn kinds() -> impl TypedValueParser<Value = FileKind> {
-    let names = PossibleValuesParser::new(FileKind::WORDS.iter().copied());
-    names.try_map(|name| {
-        let found = FileKind::NAMES.iter().find(|(known, _)| *known == name);
-        found
-            .map(|(_, kind)| *kind)
-            .ok_or("this is no kind of file")
-    })
+    let kinds = FileKind::NAMES.iter();
+    named(kinds.map(|(name, kind)| (*kind, *name, "")))
 }
 
 pub(super) fn run(flags: &SchemaFlags) -> Result<Ended, Failure> {

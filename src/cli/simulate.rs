@@ -1,20 +1,21 @@
 //! `contact-dma simulate`: from a scenario file to the folder of results.
 
-use std::num::NonZeroUsize;
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
 use clap::Args;
 
-use super::arguments::{OutputFormat, folder, threads};
-use super::interruption;
-use super::plan::{megabytes, nodes};
+use super::failure::{Ended, Failure};
+use super::flags::RunFlags;
+use super::folders::open_store;
+use super::memory::{self, megabytes};
+use super::output::{OutputFormat, read_json, tell};
 use super::progress::{bar, line};
-use super::{Ended, Failure, json, meant_for, memory, open_document, open_store, tell};
+use super::{interruption, meant_for};
 use crate::figures::paper::drawing_bytes;
 use crate::input::scenario_file;
 use crate::report::quantities::{self, Moment};
+use crate::report::words::nodes;
 use crate::report::{self, machine, terminal_simulation};
 use crate::simulation::checkpoint::{HistoryCheckpoint, HistoryState};
 use crate::simulation::scenario;
@@ -30,56 +31,31 @@ Examples:
   contact-dma simulate sweeps/zener-unloading.toml --set solver.engine=half-space \\
       --set output.fields_at='[\"4 s\"]' --out reports/fields
 
-The same command again goes on where it was stopped, from the last checkpoint.
-
-Written to the output folder: index.html (one page of everything, to look at or to send),
-history.csv (one row per time step, two at a jump), profiles/ and fields/ at the times asked
-for (CSV; NumPy .npy and ParaView .vti), history, profiles and pressure-map as SVG and PNG,
-summary.json, resolved.toml (the scenario with every default).")]
+The same command again goes on where it was stopped, from the last checkpoint. The folder opens
+with index.html, one page of everything; history.csv has one row per time step, two at a jump.")]
 pub(super) struct SimulateFlags {
-    /// The scenario file (TOML); - reads standard input, from which paths start in the working folder
-    file: PathBuf,
-    /// Folder for the results [default: reports/<name of the file>]
-    #[arg(long, value_name = "DIR", value_parser = folder())]
-    out: Option<PathBuf>,
-    /// Change one key of the scenario file, for example indenter.radius='5 mm'; may be repeated
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    run: RunFlags,
     /// Do not estimate the errors of the rows, which saves more than half of the time; the same as
     /// --set output.error_bars=false
     #[arg(long)]
     no_error_bars: bool,
-    /// Write only tables, without figures and page
-    #[arg(long)]
-    no_figures: bool,
-    /// Number of threads, which share a large half-space grid [default: one per processor, at most four for each]; the
-    /// results do not depend on it
-    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
-    threads: Option<NonZeroUsize>,
     /// Print what would be computed and the approximate memory it takes, and compute nothing
     #[arg(long)]
     dry_run: bool,
     /// Seconds between checkpoints of a long history
     #[arg(long, value_name = "SECONDS", default_value_t = checkpoint_file::EVERY.as_secs())]
     checkpoint_every: u64,
-    /// Replace the results of a different sweep or scenario in the output folder, or add to a folder that has files of others,
-    /// of which none is touched
-    #[arg(long)]
-    force: bool,
-    /// Print nothing but errors
-    #[arg(long, short)]
-    quiet: bool,
 }
 
 /// Runs the command.
 pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let clock = Stopwatch::start();
-    let mut set = flags.set.clone();
+    let mut set = flags.run.set.clone();
     if flags.no_error_bars {
         set.push("output.error_bars=false".to_owned());
     }
-    let document = open_document(&flags.file, &set)?;
-    meant_for::simulate(&document, &flags.file)?;
+    let document = meant_for::open(&meant_for::SCENARIO, &flags.run.file, &set)?;
     let plan = scenario_file::plan(&document)?;
     let simulation = Simulation::new(plan).map_err(Failure::input)?;
     if flags.dry_run {
@@ -96,16 +72,15 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
         return tell(format, false, found, || predicted(&simulation).into());
     }
     let resolved = scenario::resolved_text(simulation.plan());
-    let out = (flags.out.as_deref(), flags.force);
-    let store = open_store((&flags.file, &document), out, &resolved)?;
-    let interrupt = interruption::keep_finished();
+    let store = open_store(&flags.run, &document, &resolved)?;
+    let (interrupt, quiet) = (interruption::keep_finished(), flags.run.work.quiet);
     let simulation = simulation.interrupted_by(Arc::clone(&interrupt));
     let checkpoint = HistoryCheckpoint::of(&store, Duration::from_secs(flags.checkpoint_every));
-    let state = found(&checkpoint, simulation.moments(), flags.quiet);
+    let state = found(&checkpoint, simulation.moments(), quiet);
     let template = "{wide_bar} {pos}/{len} steps, {eta} left";
-    let bar = bar(simulation.moments(), template, flags.quiet);
-    let threads = run::useful_threads(flags.threads);
-    let drawing_bytes = match flags.no_figures {
+    let bar = bar(simulation.moments(), template, quiet);
+    let threads = flags.run.work.threads();
+    let drawing_bytes = match flags.run.no_figures {
         true => 0,
         false => drawing_bytes(&simulation.plan().figures, threads),
     };
@@ -118,7 +93,7 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
         (outcome, checkpoint)
     });
     bar.finish_and_clear();
-    let write = match flags.no_figures {
+    let write = match flags.run.no_figures {
         true => report::scenario::write_tables,
         false => report::scenario::write,
     };
@@ -147,7 +122,7 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
         text.append(format!("\nResults in {folder}"));
         text
     };
-    tell(format, flags.quiet, || found_in(&store, &outcome), text)?;
+    tell(format, quiet, || found_in(&store, &outcome), text)?;
     Ok(match outcome.ended {
         SimulationEnd::Interrupted => Ended::Interrupted,
         _ => Ended::Done,
@@ -158,7 +133,7 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
 fn found_in(store: &Store, outcome: &SimulationOutcome) -> Result<serde_json::Value, Failure> {
     let moments: Vec<Moment> = Moment::all(outcome).collect();
     Ok(serde_json::json!({
-        "summary": json::file(&store.folder().join("summary.json"))?,
+        "summary": read_json(&store.folder().join("summary.json"))?,
         "history": machine::rows(&quantities::of_moments(), &moments),
         "cycles": machine::rows(&quantities::of_cycles(), &outcome.cycles),
     }))

@@ -6,11 +6,12 @@ use std::sync::Arc;
 
 use clap::Args;
 
-use super::arguments::{OutputFormat, folder, threads};
+use super::failure::{Ended, Failure};
+use super::flags::{folder, threads};
 use super::interruption;
+use super::output::OutputFormat;
 use super::progress::Shown;
 use super::sweep::Job;
-use super::{Ended, Failure};
 use crate::input::document::Document;
 use crate::input::sweep_file;
 use crate::sweep::case::Setup;

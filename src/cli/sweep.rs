@@ -1,25 +1,21 @@
 //! `contact-dma sweep`: from a sweep file to the folder of results.
 
-use std::num::NonZeroUsize;
-use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
 use clap::Args;
 use serde_json::json;
 
-use super::arguments::{OutputFormat, folder, threads};
-use super::interruption;
+use super::failure::{Ended, Failure};
+use super::flags::RunFlags;
+use super::folders::open_store;
+use super::output::{OutputFormat, print, say_quietly, tell};
 use super::progress::Shown;
-use super::{
-    Ended, Failure, meant_for, memory, open_document, open_store, print, say_quietly, tell,
-};
+use super::{interruption, meant_for, memory, plan};
 use crate::figures::paper::drawing_bytes;
 use crate::input::sweep_file;
-use crate::report::text::Text;
 use crate::report::{self, terminal};
 use crate::sweep::case::Setup;
-use crate::sweep::plan::Block;
 use crate::sweep::plan::resolved;
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::{self, Mode, Outcome};
@@ -35,37 +31,15 @@ Examples:
   contact-dma sweep sweeps/pmma.toml --set solver.engine=half-space --threads 2
   contact-dma sweep sweeps/pmma.toml --shard 2/8
 
-The same command again resumes an interrupted sweep: cases with intact records are read, not
-computed, and a long case continues after the last of its resolutions that was solved.
-
-Written to the output folder: index.html (one page of everything, to look at or to send),
-sweep.csv (one row per frequency), loops/ (the stabilised cycles), pressures/ and work/
-(contact pressure at some instants of each, and where its work goes in), summary.json (peaks,
-counts), figures as SVG and PNG with their data as CSV, records/ (everything, for later),
-resolved.toml (the sweep with every default).
-
-The [figures] table affects only how figures look: the same sweep with another table reads its
-records and redraws.")]
+The same command again resumes an interrupted sweep. The folder opens with index.html, one page
+of everything; sweep.csv has one row per frequency.")]
 pub(super) struct SweepFlags {
-    /// The sweep file (TOML); - reads standard input, from which paths start in the working folder
-    file: PathBuf,
-    /// Folder for the results [default: reports/<name of the file>]
-    #[arg(long, value_name = "DIR", value_parser = folder())]
-    out: Option<PathBuf>,
-    /// Number of threads [default: one per processor, at most four for each]; the results do not depend on it
-    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
-    threads: Option<NonZeroUsize>,
-    /// Change one key of the sweep file, for example drive.amplitude='2 N' or indenter.asperities.0.radius='1 mm' (items of a list count
-    /// from 0); KEY= removes a key; may be repeated
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    set: Vec<String>,
+    #[command(flatten)]
+    run: RunFlags,
     /// Choose steps and nodes so that the relative error of every loss is below this value; same as
     /// --set cycle.accuracy=X
     #[arg(long, value_name = "X")]
     accuracy: Option<f64>,
-    /// Write only tables, without figures and page
-    #[arg(long)]
-    no_figures: bool,
     /// Write cycles.npz, all cycles for NumPy, also for more than 200 cases; without this flag an earlier one is removed
     #[arg(long)]
     cycles: bool,
@@ -81,54 +55,44 @@ pub(super) struct SweepFlags {
     /// Seconds between two writes of what a long case has solved
     #[arg(long, value_name = "SECONDS", default_value_t = checkpoint_file::EVERY.as_secs())]
     checkpoint_every: u64,
-    /// Replace the results of a different sweep, or of a newer program, in the output folder, or add to a folder that has files of
-    /// others, of which none is touched
-    #[arg(long)]
-    force: bool,
-    /// Print nothing but errors
-    #[arg(long, short)]
-    quiet: bool,
 }
 
 /// Runs the command.
 pub(super) fn run(flags: &SweepFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let clock = Stopwatch::start();
-    let set = super::plan::with_accuracy(&flags.set, flags.accuracy)?;
-    let document = open_document(&flags.file, &set)?;
-    meant_for::sweep(&document, &flags.file)?;
-    let plan = sweep_file::plan(&document)?;
-    let setup = Setup::new(plan).map_err(Failure::input)?;
+    let set = plan::with_accuracy(&flags.run.set, flags.accuracy)?;
+    let document = meant_for::open(&meant_for::SWEEP, &flags.run.file, &set)?;
+    let setup = Setup::new(sweep_file::plan(&document)?).map_err(Failure::input)?;
     if flags.dry_run {
-        return super::plan::show(&setup, format);
+        return plan::show(&setup, format);
     }
     let resolved = resolved::resolved_text(setup.plan());
-    let out = (flags.out.as_deref(), flags.force);
-    let store = open_store((&flags.file, &document), out, &resolved)?;
-    let interrupt = interruption::flag();
+    let store = open_store(&flags.run, &document, &resolved)?;
+    let (interrupt, quiet) = (interruption::flag(), flags.run.work.quiet);
     let setup = setup.interrupted_by(Arc::clone(&interrupt));
-    let threads = run::useful_threads(flags.threads);
+    let threads = flags.run.work.threads();
     let mode = Mode::Solve {
         threads,
         checkpoint_every: Duration::from_secs(flags.checkpoint_every),
         shard: flags.shard,
     };
-    let drawing_bytes = match flags.no_figures {
+    let drawing_bytes = match flags.run.no_figures {
         true => 0,
         false => drawing_bytes(&setup.plan().figures, threads),
     };
     memory::warn_if_short(setup.predicted_memory_bytes(), threads, drawing_bytes);
     let mut job = Job {
-        figures: !flags.no_figures,
+        figures: !flags.run.no_figures,
         cycles: flags.cycles,
         stats: flags.stats,
         threads,
-        ..Job::new("sweep", clock, (&setup, &store), (format, flags.quiet))
+        ..Job::new("sweep", clock, (&setup, &store), (format, quiet))
     };
     let own = match flags.shard {
         Some(shard) => shard::cases(&setup, shard).len(),
         None => setup.plan().cases().len(),
     };
-    let progress = Shown::new(setup.plan(), own, flags.quiet);
+    let progress = Shown::new(setup.plan(), own, quiet);
     let outcome = run::run(&setup, &store, mode, &interrupt, &progress);
     job.found = progress.finish();
     match flags.shard {
@@ -205,46 +169,16 @@ impl<'a> Job<'a> {
             ))
         };
         say_quietly(self.quiet, || terminal::problems(plan, outcome));
-        let text = || self.text(outcome, &left_out);
+        let text = || {
+            let mut text = terminal::text(plan, outcome, &left_out);
+            text.append(format!("\nResults in {}", self.store.folder().display()));
+            text
+        };
         tell(self.format, self.quiet, found, text)?;
         if self.stats && self.format == OutputFormat::Text {
             print(&terminal::work(outcome).into())?;
         }
         Ok(ended(outcome.interrupted, &outcome.records))
-    }
-
-    /// What is printed at the end.
-    fn text(&self, outcome: &Outcome, left_out: &[String]) -> Text {
-        let plan = self.setup.plan();
-        let mut text = Text::from(format!("{}\n\n", plan.title));
-        for (_, condition) in plan.each_of(Block::Material) {
-            let material = &condition.contact.material;
-            let fit = report::fit::fitted(material);
-            let known = material.origin.approximation.as_ref();
-            let approximation = known.map(|_| report::fit::approximation(material));
-            for part in fit.into_iter().chain(approximation) {
-                text.append(part);
-                text.blank();
-            }
-        }
-        text.append(terminal::table(plan, outcome));
-        for part in [
-            terminal::peaks(plan, outcome),
-            terminal::problems(plan, outcome),
-            terminal::warnings_of_sweep(plan, outcome),
-            left_out.join("\n").into(),
-        ] {
-            text.append_apart(part);
-        }
-        if outcome.interrupted {
-            text.append(format!(
-                "\nInterrupted: {} of {} cases are done. The same command continues with the others.",
-                outcome.records.len(),
-                plan.cases().len()
-            ));
-        }
-        text.append(format!("\nResults in {}", self.store.folder().display()));
-        text
     }
 
     /// Writes run.json.

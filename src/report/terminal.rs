@@ -4,6 +4,7 @@ use std::fmt::Display;
 
 use super::figure;
 use super::figure::units::Units;
+use super::fit;
 use super::number::{Measured, four_digits};
 use super::peaks;
 use super::rigid_indenter;
@@ -12,13 +13,47 @@ use super::words::without_result;
 use crate::history::Work;
 use crate::quantity::{Dimension, FrequencyUnit, format_human};
 use crate::report::warnings;
-use crate::sweep::plan::{Axes, Condition, SweepPlan, Varied};
+use crate::sweep::plan::{Axes, Block, Condition, SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::Outcome;
 
+/// Title, materials where they come from data, the table, peaks, what went wrong, and which files were left out.
+pub fn text(plan: &SweepPlan, outcome: &Outcome, left_out: &[String]) -> Text {
+    let mut text = Text::from(format!("{}\n\n", plan.title));
+    for (_, condition) in plan.each_of(Block::Material) {
+        let material = &condition.contact.material;
+        for part in [
+            fit::fitted(material).unwrap_or_default(),
+            fit::approximation(material),
+        ] {
+            if !part.is_empty() {
+                text.append(part);
+                text.blank();
+            }
+        }
+    }
+    text.append(table(plan, outcome));
+    for part in [
+        peaks(plan, outcome),
+        problems(plan, outcome),
+        warnings_of_sweep(plan, outcome),
+        left_out.join("\n").into(),
+    ] {
+        text.append_apart(part);
+    }
+    if outcome.interrupted {
+        text.append(format!(
+            "\nInterrupted: {} of {} cases are done. The same command continues with the others.",
+            outcome.records.len(),
+            plan.cases().len()
+        ));
+    }
+    text
+}
+
 /// One line per case: frequency, loss with its error, phase, cycles, status; an absent value is a dash. A sweep of two axes
 /// has one line per value of the second instead: its cases are too many to be read.
-pub fn table(plan: &SweepPlan, outcome: &Outcome) -> Text {
+fn table(plan: &SweepPlan, outcome: &Outcome) -> Text {
     match &plan.axes {
         Some(axes) => conditions(plan, axes, outcome),
         None => cases(plan.figures.frequency_unit, &outcome.records),
@@ -162,7 +197,7 @@ pub fn problems(plan: &SweepPlan, outcome: &Outcome) -> Text {
 }
 
 /// What lies outside the model, or was not estimated: one line for each kind, whatever the number of cases.
-pub fn warnings_of_sweep(plan: &SweepPlan, outcome: &Outcome) -> Text {
+fn warnings_of_sweep(plan: &SweepPlan, outcome: &Outcome) -> Text {
     let unit = plan.figures.frequency_unit;
     let mut text = warned(warnings::over_cases(&outcome.records, unit));
     if let Some(note) = rigid_indenter::note(plan, outcome) {

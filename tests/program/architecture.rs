@@ -70,6 +70,36 @@ const REPORT: [&str; 35] = [
     "mod",
 ];
 
+/// Parts of the command line from top to bottom.
+const CLI: [&str; 26] = [
+    "interruption",
+    "failure",
+    "output",
+    "flags",
+    "documents",
+    "progress",
+    "folders",
+    "memory",
+    "meant_for",
+    "plan",
+    "sweep",
+    "simulate",
+    "analyse",
+    "stored",
+    "compare",
+    "identify",
+    "reproduce",
+    "schema",
+    "renew",
+    "material_show",
+    "material_export",
+    "material_fit",
+    "material_fit_dynamic",
+    "material",
+    "commands",
+    "mod",
+];
+
 /// Modules that do not know one another, although one stands above the other.
 const STRANGERS: [&str; 5] = ["material", "indenter", "drive", "contact", "cycle"];
 
@@ -204,6 +234,32 @@ fn a_part_of_the_report_uses_only_parts_above_it() {
         }
     }
     assert!(seen > 60, "the sources were not found");
+}
+
+#[test]
+fn a_part_of_the_command_line_uses_only_parts_above_it() {
+    let cli = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/cli");
+    let files = sources(&cli);
+    assert_eq!(
+        files.len(),
+        CLI.len(),
+        "a part is missing, or not on the map"
+    );
+    for path in files {
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        let own = CLI.iter().position(|part| *part == name);
+        let own = own.unwrap_or_else(|| panic!("{name} is not on the map"));
+        let code = production(&fs::read_to_string(&path).unwrap());
+        let mut parts = used(&code, "super::", &CLI);
+        for list in code.split("super::{").skip(1) {
+            let list = list.split(';').next().unwrap();
+            parts.extend(used(&format!(" {list}").replace(",", " "), " ", &CLI));
+        }
+        for part in parts {
+            let other = CLI.iter().position(|p| *p == part).unwrap();
+            assert!(other <= own, "{name} uses {part}, which is below it");
+        }
+    }
 }
 
 #[test]

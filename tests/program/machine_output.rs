@@ -70,6 +70,7 @@ fn every_command_that_finds_something_prints_it_as_one_object() {
     let plan = json(&folder, &["plan", file]);
     assert_eq!(plan["cases"].as_array().unwrap().len(), 3);
     assert_eq!(plan["cases"][1]["angular_frequency_rad_per_s"], 0.008);
+    assert!(plan["cases"][1]["cycles"].is_u64());
     assert!(plan["time_on_one_thread_s"].as_f64().unwrap() > 0.0 && plan["cells"].is_null());
     assert_eq!(
         json(&folder, &["sweep", file, "--dry-run"])["springs"],

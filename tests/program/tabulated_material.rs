@@ -839,7 +839,14 @@ fn shift_factors_that_were_given_have_no_errors_and_without_a_poisson_ratio_the_
         command.assert()
     };
     let printed = run(&[
-        "--shift", "a.csv", "--out", "out", "--format", "json", "--format", "table",
+        "--shift",
+        "a.csv",
+        "--out",
+        "out",
+        "--format",
+        "json",
+        "--data-format",
+        "table",
     ]);
     let printed = printed.success();
     let json: serde_json::Value = serde_json::from_slice(&printed.get_output().stdout).unwrap();
@@ -859,10 +866,7 @@ fn shift_factors_that_were_given_have_no_errors_and_without_a_poisson_ratio_the_
         (&["--reference-temperature", "25"], "'25 °C'"),
         (&["--branches", "0"], "a whole number from 1"),
         (&["--flow", "true"], "--flow is for creep"),
-        (
-            &["--data-format", "pyvisco", "--format", "table"],
-            "two formats",
-        ),
+        (&["--format", "pyvisco"], "--data-format pyvisco"),
         (&["--format", "xml"], "invalid value"),
     ] {
         run(more).code(2).stderr(contains(words));

@@ -14,8 +14,23 @@ use crate::sweep::record::Status;
 /// Files with the same finding that are named before the rest is counted.
 const NAMED: usize = 3;
 
+/// What is printed at the end: of a single record what was done with it, the tables, and what is to be known.
+pub fn text(rows: &[MeasuredRow]) -> Text {
+    let mut text = Text::default();
+    if let [row] = rows
+        && let Some(measured) = &row.measured
+    {
+        text = record(measured).into_iter().collect();
+        text.blank();
+    }
+    text.append(table(rows));
+    text.append_apart(moduli(rows));
+    text.append(findings(rows));
+    text
+}
+
 /// One line a record: frequency, loss and phase with half their intervals of 95 %, cycles that count, file.
-pub fn table(rows: &[MeasuredRow]) -> Text {
+fn table(rows: &[MeasuredRow]) -> Text {
     let columns = [
         Column::right("f / Hz", 10),
         Column::left("loss / cycle", 20),
@@ -60,7 +75,7 @@ pub fn phase(row: &MeasuredRow) -> String {
 }
 
 /// Moduli, where there are some: by the formula, and without its bias. Both, so that the bias is seen.
-pub fn moduli(rows: &[MeasuredRow]) -> Text {
+fn moduli(rows: &[MeasuredRow]) -> Text {
     let pascal = |mean: Option<Estimate>| or_dash(mean.map(|m| with_error(m, Dimension::Stress)));
     let columns = [
         Column::right("f / Hz", 10),
@@ -135,7 +150,7 @@ fn angle(degrees: f64, error: Option<f64>) -> String {
 }
 
 /// What was told apart, and what is to be known: one line for each kind, whatever the number of files.
-pub fn findings(rows: &[MeasuredRow]) -> Text {
+fn findings(rows: &[MeasuredRow]) -> Text {
     let mut kinds: BTreeMap<&str, Vec<(&str, String)>> = BTreeMap::new();
     for row in rows {
         let failed = row.reason.iter().map(|reason| ("failed", reason.clone()));
