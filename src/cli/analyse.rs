@@ -14,7 +14,7 @@ use super::failure::{Ended, Failure};
 use super::flags::{WorkFlags, folder};
 use super::folders::write_result;
 use super::interruption;
-use super::output::{OutputFormat, print, print_json, read_json, say_quietly};
+use super::output::{OutputFormat, read_json, say_quietly, tell};
 use crate::input::loop_file;
 use crate::input::setup_file::{self, Setup};
 use crate::measured::Options;
@@ -244,19 +244,18 @@ fn finish(
 ) -> Result<Ended, Failure> {
     write(target, analysis, figures)?;
     let folder = target.folder;
-    match format {
-        OutputFormat::Json => print_json(&json!({
+    let found = || {
+        Ok(json!({
             "folder": folder,
             "rows": machine::rows(&columns::of_records(), &analysis.rows),
             "summary": read_json(&folder.join("summary.json"))?,
-        }))?,
-        OutputFormat::Text if !quiet => {
-            let mut text = text::text(&analysis.rows);
-            text.append(format!("\nResults in {}", folder.display()));
-            print(&text)?
-        }
-        OutputFormat::Text => Ended::Done,
+        }))
     };
+    tell(format, quiet, found, || {
+        let mut text = text::text(&analysis.rows);
+        text.append(format!("\nResults in {}", folder.display()));
+        Ok(text)
+    })?;
     say_quietly(quiet, || text::without_mean(&analysis.rows));
     let mut rows = analysis.rows.iter();
     Ok(match rows.all(|row| row.status() == Status::Converged) {

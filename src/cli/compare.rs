@@ -86,7 +86,7 @@ pub(super) fn run(flags: &CompareFlags, format: OutputFormat) -> Result<Ended, F
         text.append(format!("\nComparison in {}", out.display()));
     }
     let found = || Ok(to_json(&comparison));
-    tell(format, flags.quiet, found, || text)?;
+    tell(format, flags.quiet, found, || Ok(text))?;
     Ok(match comparison.differs() {
         true => Ended::Differs,
         false => Ended::Done,

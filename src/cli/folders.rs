@@ -4,9 +4,9 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use super::documents::STANDARD_INPUT;
-use super::failure::{Ended, Failure};
+use super::failure::Failure;
 use super::flags::RunFlags;
-use super::output::{OutputFormat, print, warn};
+use super::output::warn;
 use super::progress;
 use crate::input::document::Document;
 use crate::report::ReportError;
@@ -75,14 +75,9 @@ pub(super) fn write_result<N: Into<String>>(
     Ok(target.write(files.into_vec())?)
 }
 
-/// Tells people where the files are.
-pub(super) fn print_place(
-    what: &str,
-    folder: &Path,
-    format: OutputFormat,
-) -> Result<Ended, Failure> {
-    match format {
-        OutputFormat::Json => Ok(Ended::Done),
-        OutputFormat::Text => print(&format!("\n{what} in {}", folder.display()).into()),
-    }
+/// The lines that say where the files are; none where none were written.
+pub(super) fn in_folder(what: &str, target: Option<&Target<'_>>) -> String {
+    target.map_or_else(String::new, |target| {
+        format!("\n{what} in {}", target.folder.display())
+    })
 }

@@ -7,8 +7,8 @@ use clap::Args;
 
 use super::failure::{Ended, Failure};
 use super::flags::RunFlags;
-use super::folders::{folder_of, print_place, write_result};
-use super::output::{OutputFormat, print, print_json};
+use super::folders::{folder_of, in_folder, write_result};
+use super::output::{OutputFormat, tell};
 use super::{interruption, meant_for};
 use crate::identify::{IdentifyError, curves, identify};
 use crate::input::identify_file;
@@ -73,22 +73,18 @@ pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, 
     write_result(&target, report.files(&block), drawn, |pictures, _| {
         page::identify::page(&report, &figures, &block, pictures)
     })?;
-    match format {
-        OutputFormat::Json => {
-            let mut value = summary::summary(&report);
-            value["material_toml"] = block.into();
-            print_json(&value)
-        }
-        OutputFormat::Text if flags.work.quiet => Ok(Ended::Done),
-        OutputFormat::Text => {
-            let mut text = Text::from(format!("{}\n\n", plan.title));
-            text.append(report.text());
-            text.blank();
-            text.append(report.unknowns());
-            print(&text)?;
-            print_place("Material and figures", target.folder, format)
-        }
-    }
+    let found = || {
+        let mut value = summary::summary(&report);
+        value["material_toml"] = block.as_str().into();
+        Ok(value)
+    };
+    tell(format, flags.work.quiet, found, || {
+        let mut text = Text::from(format!("{}\n\n", plan.title));
+        text.append(report.text());
+        text.append_apart(report.unknowns().into());
+        text.append(in_folder("Material and figures", Some(&target)));
+        Ok(text)
+    })
 }
 
 /// What is wrong with the data is bad input; a cycle that was not found is not.

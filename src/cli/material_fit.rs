@@ -8,9 +8,9 @@ use clap::{Args, ValueEnum};
 
 use super::failure::{Ended, Failure};
 use super::flags::{OutFlags, named};
-use super::folders::{print_place, write_result};
+use super::folders::{in_folder, write_result};
 use super::material_show::{fit_json, to_json};
-use super::output::{OutputFormat, print, print_json, write_out};
+use super::output::{OutputFormat, tell};
 use crate::input::dynamic::{DynamicFormat, FORMATS};
 use crate::input::keys::material::{MOST_BRANCHES, MOST_REPLICAS};
 use crate::input::table_file;
@@ -23,7 +23,7 @@ use crate::report::page::{self, material::About};
 use crate::report::text::Text;
 use crate::report::{self, figure};
 use crate::sweep::plan::resolved;
-use crate::sweep::store::manifest::Kind;
+use crate::sweep::store::manifest::{Kind, Target};
 
 #[derive(Debug, Args)]
 pub(super) struct FitFlags {
@@ -166,53 +166,63 @@ pub(super) fn run(
     let fit = fit::fit(&table, flags.flow).map_err(Failure::input)?;
     let material = fit.material(poisson_ratio).map_err(Failure::input)?;
     let block = block(data, &material);
-    match format {
-        OutputFormat::Json => {
-            let mut value = to_json(&material)?;
-            value["fit"] = fit_json(fit.report());
-            print_json(&value)?
-        }
-        OutputFormat::Text => {
-            let mut text = report::fit::text(fit.report());
-            text.append_apart(report::fit::branches(&fit));
-            print_fit(flags, &text, &block)?
-        }
+    let about_fit = report::fit::text(fit.report());
+    if let Some(target) = &target {
+        let prony = material.relaxation().map(tables::prony);
+        let files = [
+            ("material.toml", Some(block.clone().into_bytes())),
+            ("prony.csv", prony),
+        ];
+        let files = files
+            .into_iter()
+            .filter_map(|(name, bytes)| Some((name, bytes?)));
+        let figures = figure::fit::figures(&table, &fit);
+        let setting = Setting::of_material(&material);
+        write_result(target, files, (&figures, &setting), |pictures, figure| {
+            let name = data.file_name().unwrap_or_default();
+            let about = About {
+                title: &format!("Fit to {}", name.display()),
+                text: &about_fit.to_string(),
+                block: &block,
+                pictures,
+                figure,
+                fit: Some((&table, &fit)),
+            };
+            page::material::page(&material, &about)
+        })?;
+    }
+    let found = || {
+        let mut value = to_json(&material)?;
+        value["fit"] = fit_json(fit.report());
+        Ok(value)
     };
-    let Some(target) = target else {
-        return Ok(Ended::Done);
-    };
-    let prony = material.relaxation().map(tables::prony);
-    let files = [
-        ("material.toml", Some(block.clone().into_bytes())),
-        ("prony.csv", prony),
-    ];
-    let files = files
-        .into_iter()
-        .filter_map(|(name, bytes)| Some((name, bytes?)));
-    let figures = figure::fit::figures(&table, &fit);
-    let setting = Setting::of_material(&material);
-    write_result(&target, files, (&figures, &setting), |pictures, figure| {
-        let name = data.file_name().unwrap_or_default();
-        let about = About {
-            title: &format!("Fit to {}", name.display()),
-            text: &report::fit::text(fit.report()).to_string(),
-            block: &block,
-            pictures,
-            figure,
-            fit: Some((&table, &fit)),
-        };
-        page::material::page(&material, &about)
-    })?;
-    print_place("Material and figures", target.folder, format)
+    let text = [about_fit.clone(), report::fit::branches(&fit)];
+    tell(format, false, found, || {
+        Ok(fit_text(text, &block, target.as_ref()))
+    })
 }
 
-/// Prints a fit; the block to paste too, as it is, where it does not go into a file.
-pub(super) fn print_fit(flags: &FitFlags, text: &Text, block: &str) -> Result<Ended, Failure> {
-    print(text)?;
-    match flags.to.out {
-        None => write_out(&format!("\n{block}")),
-        Some(_) => Ok(Ended::Done),
+/// What is printed of a fit, and where its files are; where there are none, the block to paste.
+pub(super) fn fit_text(
+    parts: impl IntoIterator<Item = Text>,
+    block: &str,
+    target: Option<&Target<'_>>,
+) -> Text {
+    let mut text = Text::default();
+    for part in parts {
+        match text.is_empty() {
+            true => text = part,
+            false => text.append_apart(part),
+        }
     }
+    match target {
+        Some(_) => text.append(in_folder("Material and figures", target)),
+        None => {
+            text.blank();
+            text.verbatim(block);
+        }
+    }
+    text
 }
 
 /// The material block of a sweep file, ready to paste, every number exact.

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use super::failure::{Ended, Failure};
-use super::folders::{print_place, write_result};
-use super::material_fit::{Branches, FitFlags, print_fit};
-use super::output::{OutputFormat, print_json};
+use super::folders::write_result;
+use super::material_fit::{Branches, FitFlags, fit_text};
+use super::output::{OutputFormat, tell};
 use crate::input::dynamic;
 use crate::material::dynamic::master_curve::ShiftChoice;
 use crate::material::dynamic::{Choices, characterise};
@@ -53,27 +53,21 @@ pub(super) fn run(flags: &FitFlags, format: OutputFormat) -> Result<Ended, Failu
     let block = block(flags, &report)?;
     let shifting = shifting_block(flags, &report)?;
     let shifting = shifting.as_deref();
-    match format {
-        OutputFormat::Json => print_json(&printed_json(&report, &block, shifting))?,
-        OutputFormat::Text => {
-            let mut text = report.text();
-            text.append_apart(report.shift_table());
-            text.append_apart(report.branches());
-            print_fit(flags, &text, &block)?
-        }
-    };
-    let Some(target) = target else {
-        return Ok(Ended::Done);
-    };
-    let figures = figure::dynamic::figures(&report);
-    let drawn = (&figures[..], &Setting::default());
-    write_result(
-        &target,
-        report.files(&block, shifting),
-        drawn,
-        |pictures, _| page::dynamic::page(&report, &figures, &block, pictures),
-    )?;
-    print_place("Material and figures", target.folder, format)
+    if let Some(target) = &target {
+        let figures = figure::dynamic::figures(&report);
+        let drawn = (&figures[..], &Setting::default());
+        write_result(
+            target,
+            report.files(&block, shifting),
+            drawn,
+            |pictures, _| page::dynamic::page(&report, &figures, &block, pictures),
+        )?;
+    }
+    let found = || Ok(printed_json(&report, &block, shifting));
+    let text = [report.text(), report.shift_table(), report.branches()];
+    tell(format, false, found, || {
+        Ok(fit_text(text, &block, target.as_ref()))
+    })
 }
 
 fn choices(flags: &FitFlags) -> Result<Choices, Failure> {

@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 use super::documents::{STANDARD_INPUT, read_document};
 use super::failure::{Ended, Failure};
 use super::flags::OutFlags;
-use super::folders::{print_place, write_result};
-use super::output::{OutputFormat, print, print_json};
+use super::folders::{in_folder, write_result};
+use super::output::{OutputFormat, tell};
 use crate::input::diagnostic::Problems;
 use crate::input::material_block;
 use crate::input::material_table::DirectSum;
@@ -32,15 +32,15 @@ pub(super) struct ShowFlags {
 
 /// Lists the library.
 pub(super) fn list(format: OutputFormat) -> Result<Ended, Failure> {
-    if format == OutputFormat::Json {
-        return print_json(&json!({ "materials": library::entries() }));
-    }
-    let mut text = Text::default();
-    for entry in library::entries() {
-        text.line(format!("{}    {}", entry.name, entry.title));
-        text.append(about(entry));
-    }
-    print(&text)
+    let found = || Ok(json!({ "materials": library::entries() }));
+    tell(format, false, found, || {
+        let mut text = Text::default();
+        for entry in library::entries() {
+            text.line(format!("{}    {}", entry.name, entry.title));
+            text.append(about(entry));
+        }
+        Ok(text)
+    })
 }
 
 /// Shows a material.
@@ -48,26 +48,11 @@ pub(super) fn run(flags: &ShowFlags, format: OutputFormat) -> Result<Ended, Fail
     let (material, (title, head), reads) = load(&flags.material)?;
     let target = flags.to.target(Kind::Material, &reads)?;
     let report = MaterialReport::new(&material);
-    match format {
-        OutputFormat::Json => print_json(&to_json(&material)?)?,
-        OutputFormat::Text => {
-            let mut text = Text::from(format!("{title}\n"));
-            text.append(head.clone());
-            text.append(report.text().map_err(Failure::input)?);
-            print(&text)?
-        }
-    };
-    let Some(target) = target else {
-        return Ok(Ended::Done);
-    };
-    let figures = report.figures();
-    let setting = Setting::of_material(&material);
-    let nothing_else: [(&str, _); 0] = [];
-    write_result(
-        &target,
-        nothing_else,
-        (&figures, &setting),
-        |pictures, figure| {
+    if let Some(target) = &target {
+        let setting = Setting::of_material(&material);
+        let drawn = (&report.figures()[..], &setting);
+        let nothing_else: [(&str, _); 0] = [];
+        write_result(target, nothing_else, drawn, |pictures, figure| {
             let about = About {
                 title: material.name().unwrap_or("Material"),
                 text: &head.to_string(),
@@ -77,9 +62,16 @@ pub(super) fn run(flags: &ShowFlags, format: OutputFormat) -> Result<Ended, Fail
                 fit: None,
             };
             page::material::page(&material, &about)
-        },
-    )?;
-    print_place("Figures", target.folder, format)
+        })?;
+    }
+    let found = || to_json(&material);
+    tell(format, false, found, || {
+        let mut text = Text::from(format!("{title}\n"));
+        text.append(head.clone());
+        text.append(report.text().map_err(Failure::input)?);
+        text.append(in_folder("Figures", target.as_ref()));
+        Ok(text)
+    })
 }
 
 /// A material, its title with what is to be said of it, and the files that were read.

@@ -26,12 +26,12 @@ pub(super) fn tell(
     format: OutputFormat,
     quiet: bool,
     found: impl FnOnce() -> Result<Value, Failure>,
-    text: impl FnOnce() -> Text,
+    text: impl FnOnce() -> Result<Text, Failure>,
 ) -> Result<Ended, Failure> {
     match format {
         OutputFormat::Json => print_json(&found()?),
         OutputFormat::Text if quiet => Ok(Ended::Done),
-        OutputFormat::Text => print(&text()),
+        OutputFormat::Text => print(&text()?),
     }
 }
 

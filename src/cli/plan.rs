@@ -64,7 +64,7 @@ pub(super) fn with_accuracy(set: &[String], accuracy: Option<f64>) -> Result<Vec
 pub(super) fn show(setup: &Setup, format: OutputFormat) -> Result<Ended, Failure> {
     let cost = Cost::of(setup, drawing_bytes(&setup.plan().figures, 1)).map_err(Failure::input)?;
     let found = || Ok(to_json(setup, &cost));
-    tell(format, false, found, || text(setup, &cost))
+    tell(format, false, found, || Ok(text(setup, &cost)))
 }
 
 fn text(setup: &Setup, cost: &Cost) -> Text {

@@ -100,7 +100,9 @@ pub(super) fn run(flags: &ReproduceFlags, format: OutputFormat) -> Result<Ended,
             "folder": flags.out.display().to_string(),
         }))
     };
-    tell(format, flags.work.quiet, found, || text(&made, &flags.out))
+    tell(format, flags.work.quiet, found, || {
+        Ok(text(&made, &flags.out))
+    })
 }
 
 /// How the figures are asked to look.

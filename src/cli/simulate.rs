@@ -69,7 +69,7 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
                 "memory_bytes": simulation.predicted_memory_bytes(),
             }))
         };
-        return tell(format, false, found, || predicted(&simulation).into());
+        return tell(format, false, found, || Ok(predicted(&simulation).into()));
     }
     let resolved = scenario::resolved_text(simulation.plan());
     let store = open_store(&flags.run, &document, &resolved)?;
@@ -120,7 +120,7 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
         let mut text = terminal_simulation::text(simulation.plan(), &outcome);
         text.append(left_out.join("\n"));
         text.append(format!("\nResults in {folder}"));
-        text
+        Ok(text)
     };
     tell(format, quiet, || found_in(&store, &outcome), text)?;
     Ok(match outcome.ended {

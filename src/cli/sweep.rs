@@ -172,7 +172,7 @@ impl<'a> Job<'a> {
         let text = || {
             let mut text = terminal::text(plan, outcome, &left_out);
             text.append(format!("\nResults in {}", self.store.folder().display()));
-            text
+            Ok(text)
         };
         tell(self.format, self.quiet, found, text)?;
         if self.stats && self.format == OutputFormat::Text {
@@ -228,7 +228,7 @@ impl<'a> Job<'a> {
         let folder = self.store.folder().display();
         let text =
             format!("Shard {shard}: {done} of {own} cases are done. {next}\n\nRecords in {folder}");
-        tell(self.format, self.quiet, || Ok(found), || text.into())?;
+        tell(self.format, self.quiet, || Ok(found), || Ok(text.into()))?;
         Ok(ended(outcome.interrupted, &outcome.records))
     }
 }

@@ -16,6 +16,8 @@ enum Part {
     /// Words in lines of at most [`USUAL`] columns: what stands before the first line, and before the others.
     Paragraph(String, &'static str, &'static str),
     Table(Table),
+    /// Lines for another program, which are never broken.
+    Verbatim(String),
 }
 
 impl Text {
@@ -37,6 +39,11 @@ impl Text {
     /// A paragraph with `first` before its first line and `next` before the others.
     pub fn indented(&mut self, words: impl Into<String>, first: &'static str, next: &'static str) {
         self.0.push(Part::Paragraph(words.into(), first, next));
+    }
+
+    /// Lines for another program, which are never broken.
+    pub fn verbatim(&mut self, lines: &str) {
+        self.0.push(Part::Verbatim(lines.to_owned()));
     }
 
     /// Puts another text below.
@@ -69,6 +76,7 @@ impl Text {
             Part::Line(line) => broken(line, widest),
             Part::Paragraph(words, first, next) => wrapped(words, widest.min(USUAL), first, next),
             Part::Table(table) => table.in_columns(widest),
+            Part::Verbatim(lines) => lines.clone(),
         };
         self.0.iter().map(laid_out).collect()
     }
