@@ -176,17 +176,7 @@ impl Body {
     }
 
     fn dynamic_fit<'py>(&self, py: Python<'py>, dynamic: &DynamicFit) -> Fit<'py> {
-        let how = match dynamic.format_named {
-            true => "as named",
-            false => "found from the content",
-        };
-        let source = Source {
-            files: dynamic.files.clone(),
-            format: dynamic.file.format.name().to_owned(),
-            how: how.to_owned(),
-            frequency_unit: dynamic.file.frequency_unit,
-            notes: dynamic.file.notes.clone(),
-        };
+        let source = Source::of(dynamic.files.clone(), dynamic.format_named, &dynamic.file);
         let report = DynamicReport {
             source: &source,
             data: &dynamic.file.data,

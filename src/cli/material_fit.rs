@@ -227,7 +227,7 @@ pub(super) fn fit_text(
 
 /// The material block of a sweep file, ready to paste, every number exact.
 fn block(data: &Path, material: &Material) -> String {
-    let fit = report::fit::fitted(material).unwrap_or_default();
+    let fit = report::fit::origin(material);
     format!(
         "# From {}\n{}{}",
         data.display().to_string().escape_debug(),

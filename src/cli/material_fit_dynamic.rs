@@ -35,16 +35,7 @@ pub(super) fn run(flags: &FitFlags, format: OutputFormat) -> Result<Ended, Failu
         let name = path.file_name().unwrap_or(path.as_os_str());
         name.display().to_string()
     });
-    let source = Source {
-        files: names.collect(),
-        format: file.format.name().to_owned(),
-        how: match asked {
-            Some(_) => "as named".to_owned(),
-            None => "found from the content".to_owned(),
-        },
-        frequency_unit: file.frequency_unit,
-        notes: file.notes,
-    };
+    let source = Source::of(names.collect(), asked.is_some(), &file);
     let report = DynamicReport {
         source: &source,
         data: &file.data,

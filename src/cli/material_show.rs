@@ -99,8 +99,7 @@ pub(super) fn load(name: &str) -> Result<Loaded, Failure> {
     let material = material_block::read(&mut root, DirectSum::Fitted);
     let material = problems.into_result(material)?.value;
     let title = format!("{} (from {name})", material.name().unwrap_or("Material"));
-    let mut head = report::fit::fitted(&material).unwrap_or_default();
-    head.append(report::fit::approximation(&material));
+    let head = report::fit::origin(&material);
     Ok((material, (title, head), document.files()))
 }
 

@@ -2,8 +2,11 @@
 
 use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 
+use super::flags::RunFlags;
 use super::progress::line;
+use crate::figures::paper::drawing_bytes;
 use crate::report::number::two_digits;
+use crate::sweep::plan::figures::FigurePlan;
 
 /// Memory (bytes) that is free for a new program here, within the limits of a container or batch job; `None` where the system
 /// does not tell.
@@ -27,9 +30,15 @@ pub(super) fn free_here() -> String {
     }
 }
 
-/// Says on standard error, before a run starts, that what it or its figures will take exceeds what is free.
-pub(super) fn warn_if_short(bytes_per_thread: u64, threads: usize, drawing_bytes: u64) {
+/// Says on standard error, before a run starts, that what it takes on each of so many threads, or its figures where there are any,
+/// exceeds what is free.
+pub(super) fn warn_if_short(flags: &RunFlags, of_run: (u64, usize), figures: &FigurePlan) {
     let Some(free) = free_bytes() else { return };
+    let (bytes_per_thread, threads) = of_run;
+    let drawing_bytes = match flags.no_figures {
+        true => 0,
+        false => drawing_bytes(figures, flags.work.threads()),
+    };
     let of_figures = (drawing_bytes > free).then(|| {
         format!(
             "warning: about {} of memory will be needed to draw the figures, and {} are free: take a smaller figures.dpi",

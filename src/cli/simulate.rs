@@ -12,7 +12,6 @@ use super::memory::{self, megabytes};
 use super::output::{OutputFormat, read_json, tell};
 use super::progress::{bar, line};
 use super::{interruption, meant_for};
-use crate::figures::paper::drawing_bytes;
 use crate::input::scenario_file;
 use crate::report::quantities::{self, Moment};
 use crate::report::words::nodes;
@@ -80,11 +79,8 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
     let template = "{wide_bar} {pos}/{len} steps, {eta} left";
     let bar = bar(simulation.moments(), template, quiet);
     let threads = flags.run.work.threads();
-    let drawing_bytes = match flags.run.no_figures {
-        true => 0,
-        false => drawing_bytes(&simulation.plan().figures, threads),
-    };
-    memory::warn_if_short(simulation.predicted_memory_bytes(), 1, drawing_bytes);
+    let of_run = (simulation.predicted_memory_bytes(), 1);
+    memory::warn_if_short(&flags.run, of_run, &simulation.plan().figures);
     let pool = run::pool(threads)?;
     let told = |done, _| bar.set_position(done as u64);
     let (simulation, flag, told) = (&simulation, &interrupt, &told);

@@ -12,7 +12,6 @@ use super::folders::open_store;
 use super::output::{OutputFormat, print, say_quietly, tell};
 use super::progress::Shown;
 use super::{interruption, meant_for, memory, plan};
-use crate::figures::paper::drawing_bytes;
 use crate::input::sweep_file;
 use crate::report::{self, terminal};
 use crate::sweep::case::Setup;
@@ -76,11 +75,8 @@ pub(super) fn run(flags: &SweepFlags, format: OutputFormat) -> Result<Ended, Fai
         checkpoint_every: Duration::from_secs(flags.checkpoint_every),
         shard: flags.shard,
     };
-    let drawing_bytes = match flags.run.no_figures {
-        true => 0,
-        false => drawing_bytes(&setup.plan().figures, threads),
-    };
-    memory::warn_if_short(setup.predicted_memory_bytes(), threads, drawing_bytes);
+    let of_run = (setup.predicted_memory_bytes(), threads);
+    memory::warn_if_short(&flags.run, of_run, &setup.plan().figures);
     let mut job = Job {
         figures: !flags.run.no_figures,
         cycles: flags.cycles,

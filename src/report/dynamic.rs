@@ -10,6 +10,7 @@ pub(super) use text::{arrhenius, wlf};
 use std::borrow::Cow;
 
 use super::number::scientific;
+use crate::input::dynamic::DynamicFile;
 use crate::material::dynamic::{Characterisation, DynamicData, DynamicPoint};
 use crate::material::{MaterialFunction, Relaxation};
 use crate::quantity::FrequencyUnit;
@@ -27,6 +28,23 @@ pub struct Source {
     pub frequency_unit: FrequencyUnit,
     /// What the reader had to assume or leave out.
     pub notes: Vec<String>,
+}
+
+impl Source {
+    /// Of files of these names, the format of which was named or found.
+    pub fn of(files: Vec<String>, format_named: bool, file: &DynamicFile) -> Self {
+        let how = match format_named {
+            true => "as named",
+            false => "found from the content",
+        };
+        Self {
+            files,
+            format: file.format.name().to_owned(),
+            how: how.to_owned(),
+            frequency_unit: file.frequency_unit,
+            notes: file.notes.clone(),
+        }
+    }
 }
 
 /// Dynamic data, where they come from, and what was made of them.

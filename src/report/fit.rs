@@ -10,15 +10,14 @@ pub fn text(report: &FitReport) -> Text {
     report.to_string().lines().collect()
 }
 
-/// The same of a material, where it was fitted.
-pub fn fitted(material: &Material) -> Option<Text> {
-    material.origin.fit.as_ref().map(text)
-}
-
-/// How well a series stands for the model that was given; empty where none was.
-pub fn approximation(material: &Material) -> Text {
-    let known = material.origin.approximation.iter();
-    known.map(|known| format!("{known}.")).collect()
+/// What is to be said of where a material comes from: how its table was fitted, or how well its series stands for the model that was
+/// given; empty where neither was.
+pub fn origin(material: &Material) -> Text {
+    let origin = &material.origin;
+    let model = origin.approximation.iter().map(|known| format!("{known}."));
+    let mut text = origin.fit.as_ref().map(text).unwrap_or_default();
+    text.append(model.collect::<Text>());
+    text
 }
 
 /// The parameters of the series, to be read; exact ones are in the material block.

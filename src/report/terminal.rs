@@ -21,15 +21,10 @@ use crate::sweep::search::run::Outcome;
 pub fn text(plan: &SweepPlan, outcome: &Outcome, left_out: &[String]) -> Text {
     let mut text = Text::from(format!("{}\n\n", plan.title));
     for (_, condition) in plan.each_of(Block::Material) {
-        let material = &condition.contact.material;
-        for part in [
-            fit::fitted(material).unwrap_or_default(),
-            fit::approximation(material),
-        ] {
-            if !part.is_empty() {
-                text.append(part);
-                text.blank();
-            }
+        let origin = fit::origin(&condition.contact.material);
+        if !origin.is_empty() {
+            text.append(origin);
+            text.blank();
         }
     }
     text.append(table(plan, outcome));

@@ -17,13 +17,10 @@ use crate::simulation::{SimulationEnd, SimulationOutcome};
 pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Text {
     let mut text = Text::from(format!("{}\n\n", plan.title));
     let material = match &plan.contact.material {
-        BodyMaterial::Series(material) if material.origin.approximation.is_some() => {
-            Some(fit::approximation(material))
-        }
-        BodyMaterial::Series(material) => fit::fitted(material),
-        BodyMaterial::Samples(sampled) => Some(samples::text(sampled, plan.drive.duration_s())),
+        BodyMaterial::Series(material) => fit::origin(material),
+        BodyMaterial::Samples(sampled) => samples::text(sampled, plan.drive.duration_s()),
     };
-    if let Some(material) = material {
+    if !material.is_empty() {
         text.append(material);
         text.blank();
     }
