@@ -39,6 +39,8 @@ pub const MAX_BYTES: usize = 512_000_000;
 pub(crate) struct Column {
     /// Its names without unit, in lower case and joined by `_`.
     pub(crate) names: &'static [&'static str],
+    /// What follows each of them: `_error`, of errors.
+    pub(crate) ending: &'static str,
     pub(crate) dimension: Dimension,
     /// What it holds, in the plural: `times`.
     pub(crate) what: &'static str,
@@ -65,11 +67,21 @@ impl Column {
     ) -> Self {
         Self {
             names,
+            ending: "",
             dimension,
             what,
             unit_may_be_absent: false,
             is_optional: false,
             first_name_counts: false,
+        }
+    }
+
+    /// The column of the same names with this ending.
+    pub(crate) const fn with(self, ending: &'static str, what: &'static str) -> Self {
+        Self {
+            ending,
+            what,
+            ..self
         }
     }
 
@@ -96,7 +108,11 @@ impl Column {
             Some(divisor) => format!("per_{divisor}"),
             None => unit.replace('/', "_per_").replace(' ', "_"),
         };
-        format!("{}_{unit}", self.names.first().unwrap_or(&""))
+        format!(
+            "{}{}_{unit}",
+            self.names.first().unwrap_or(&""),
+            self.ending
+        )
     }
 
     /// Whether a name of one letter stands for this column: with a unit, by its dimension, and `t` without one is no `T`.
@@ -167,7 +183,9 @@ impl Column {
         let name = name.trim().replace([' ', '-'], "_");
         self.names.iter().enumerate().find_map(|(which, known)| {
             let (head, rest) = name.split_at_checked(known.len())?;
-            if !head.eq_ignore_ascii_case(known) {
+            let (ending, rest) = rest.split_at_checked(self.ending.len())?;
+            let is_ending = ending.eq_ignore_ascii_case(self.ending);
+            if !head.eq_ignore_ascii_case(known) || !is_ending {
                 return None;
             }
             let unit = match (rest.strip_prefix('_'), unit) {
@@ -194,6 +212,15 @@ pub(super) fn contents(path: &Path, most: usize) -> Result<(String, Vec<u8>), Di
         Ok(bytes) => Ok((name, bytes)),
         Err(error) => Err(cannot_read(&name, &error).into()),
     }
+}
+
+/// Refuses a file of more bytes than that.
+pub(super) fn within(name: &str, bytes: &[u8], most: usize, help: &str) -> Result<(), Diagnostic> {
+    if bytes.len() <= most {
+        return Ok(());
+    }
+    let message = format!("`{name}` is larger than {} MB", most / 1_000_000);
+    Err(Diagnostic::new(message).help(help))
 }
 
 /// The bytes of the file that a key names, and what messages call it. `None` where a problem was reported.
@@ -242,26 +269,13 @@ pub(crate) struct DataFile {
 }
 
 impl DataFile {
-    /// Opens a file.
-    ///
-    /// # Errors
-    /// It cannot be read, or [`DataFile::from_bytes`] refuses it.
-    pub(crate) fn read(path: &Path) -> Result<Self, Diagnostics> {
-        let (name, bytes) = contents(path, MAX_BYTES)?;
-        Self::from_bytes(&name, &bytes)
-    }
-
     /// Takes the bytes of a file that messages call `name`.
     ///
     /// # Errors
     /// More than [`MAX_BYTES`], or no text.
     pub(crate) fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self, Diagnostics> {
-        if bytes.len() > MAX_BYTES {
-            let message = format!("`{name}` is larger than {} MB", MAX_BYTES / 1_000_000);
-            return Err(Diagnostic::new(message)
-                .help("save fewer rows of a table, and a map as .npy or with fewer points")
-                .into());
-        }
+        let help = "save fewer rows of a table, and a map as .npy or with fewer points";
+        within(name, bytes, MAX_BYTES, help)?;
         let source = Source::file(name, text::decode(name, bytes)?);
         Ok(Self { source })
     }
@@ -464,6 +478,11 @@ mod tests {
                 "2:3",
                 "may separate decimals or thousands",
             ),
+            (
+                "f_hz,E' [Pa]\n1,2.5\n2,\"2,5\"\n",
+                "3:4",
+                "a decimal comma in a file with decimal points",
+            ),
             ("f_hz;E' [Pa]\n1;1.23,4,5\n", "2:3", "not a number"),
             (
                 "f_hz;E' [Pa]\n1;1.234,5\n2;2.5\n",
@@ -486,6 +505,9 @@ mod tests {
             assert!(words.contains(&format!("dma.txt:{place}")), "{refused}");
             assert!(words.contains(reason), "{refused}");
         }
+        // Between quotation marks a comma separates no cells.
+        let quoted = read("f_hz,E' [Pa]\n1,\"2,5\"\n2,3\n").unwrap();
+        assert_eq!(quoted, [[1.0, 2.5], [2.0, 3.0]]);
         // Where one comma separates no thousands, none does.
         assert_eq!(read("f_hz;E' [Pa]\n0,25;2,500\n").unwrap(), [[0.25, 2.5]]);
         // A number with both signs, or with one of them twice, tells which one groups thousands.

@@ -21,20 +21,11 @@ pub(super) fn parse(
     bytes: &[u8],
     drive: &SegmentedDrive,
 ) -> Result<(Vec<Reading>, TableColumns), Diagnostics> {
-    let (value, error) = match drive.control() {
-        Control::Load => (
-            Column::new(&["approach", "depth"], Dimension::Length, "approaches"),
-            Column::new(
-                &["approach_error", "depth_error"],
-                Dimension::Length,
-                "errors",
-            ),
-        ),
-        Control::Approach => (
-            Column::new(&["load", "force"], Dimension::Force, "loads"),
-            Column::new(&["load_error", "force_error"], Dimension::Force, "errors"),
-        ),
+    let value = match drive.control() {
+        Control::Load => Column::new(&["approach", "depth"], Dimension::Length, "approaches"),
+        Control::Approach => Column::new(&["load", "force"], Dimension::Force, "loads"),
     };
+    let error = value.with("_error", "errors");
     let file = DataFile::from_bytes(name, bytes)?;
     let wanted = [TIME, value, error.optional()];
     let without_number = "write a number, or leave the cell empty where nothing was measured";

@@ -15,60 +15,52 @@ const ANGULAR: Column = Column::new(
 );
 const HERTZ: Column = Column::new(&["frequency"], Frequency, "frequencies");
 
-/// A number, the column of its values, and those of its errors.
+/// A number, and the column of its values.
 struct Measured {
     number: Number,
     value: Column,
-    /// Standard deviations, or in a table of an analysis half widths of the interval of 95 %.
-    error: Column,
-    /// Standard deviations in every table.
-    standard_error: Column,
 }
 
 impl Measured {
+    /// Standard deviations, or in a table of an analysis half widths of the interval of 95 %.
+    fn error(&self) -> Column {
+        self.value.with("_error", "errors")
+    }
+
+    /// Standard deviations in every table.
+    fn standard_error(&self) -> Column {
+        self.value.with("_standard_error", "errors")
+    }
+
     fn columns(&self) -> [Column; 3] {
-        [self.value, self.error, self.standard_error]
+        [self.value, self.error(), self.standard_error()]
     }
 }
 
 /// A number under its names.
-macro_rules! measured {
-    ($number:expr, $first:literal $(, $name:literal)*) => {
-        Measured {
-            number: $number,
-            value: Column::new(&[$first $(, $name)*], $number.dimension(), $first),
-            error: Column::new(&[concat!($first, "_error") $(, concat!($name, "_error"))*], $number.dimension(), concat!($first, "_error")),
-            standard_error: Column::new(
-                &[concat!($first, "_standard_error") $(, concat!($name, "_standard_error"))*],
-                $number.dimension(),
-                concat!($first, "_standard_error"),
-            ),
-        }
-    };
+const fn measured(number: Number, names: &'static [&'static str]) -> Measured {
+    let value = Column::new(names, number.dimension(), names[0]);
+    Measured { number, value }
 }
 
-const APPROACH_AMPLITUDE: Measured = measured!(
-    Number::ApproachAmplitude,
-    "approach_amplitude",
-    "depth_amplitude"
-);
+const APPROACH_AMPLITUDE: Measured = measured(Number::ApproachAmplitude, &["approach_amplitude", "depth_amplitude"]);
 const LOAD_AMPLITUDE: Measured =
-    measured!(Number::LoadAmplitude, "load_amplitude", "force_amplitude");
+    measured(Number::LoadAmplitude, &["load_amplitude", "force_amplitude"]);
 
 #[rustfmt::skip]
 static MEASURED: [Measured; 12] = [
-    measured!(Number::EnergyLoss, "energy_loss", "loss", "loss_energy", "dissipated_energy", "energy_dissipation"),
-    measured!(Number::PhaseLag, "phase_lag", "phase", "phase_angle", "loss_angle"),
-    measured!(Number::StorageModulus, "storage_modulus"),
-    measured!(Number::LossModulus, "loss_modulus"),
-    measured!(Number::ApproachMin, "approach_min", "min_approach", "depth_min", "min_depth", "minimum_depth"),
-    measured!(Number::ApproachMax, "approach_max", "max_approach", "depth_max", "max_depth", "maximum_depth"),
+    measured(Number::EnergyLoss, &["energy_loss", "loss", "loss_energy", "dissipated_energy", "energy_dissipation"]),
+    measured(Number::PhaseLag, &["phase_lag", "phase", "phase_angle", "loss_angle"]),
+    measured(Number::StorageModulus, &["storage_modulus"]),
+    measured(Number::LossModulus, &["loss_modulus"]),
+    measured(Number::ApproachMin, &["approach_min", "min_approach", "depth_min", "min_depth", "minimum_depth"]),
+    measured(Number::ApproachMax, &["approach_max", "max_approach", "depth_max", "max_depth", "maximum_depth"]),
     APPROACH_AMPLITUDE,
     LOAD_AMPLITUDE,
-    measured!(Number::ContactRadiusMin, "contact_radius_min"),
-    measured!(Number::ContactRadiusMax, "contact_radius_max"),
-    measured!(Number::PeakPressureMin, "peak_pressure_min"),
-    measured!(Number::PeakPressureMax, "peak_pressure_max"),
+    measured(Number::ContactRadiusMin, &["contact_radius_min"]),
+    measured(Number::ContactRadiusMax, &["contact_radius_max"]),
+    measured(Number::PeakPressureMin, &["peak_pressure_min"]),
+    measured(Number::PeakPressureMax, &["peak_pressure_max"]),
 ];
 
 /// Columns that only the table of an analysis of records has.
@@ -202,7 +194,7 @@ fn quantities(
                 continue;
             }
             (true, Some(why)) => (vec![own.value], why),
-            (false, _) => (vec![own.error, own.standard_error], NO_QUANTITY),
+            (false, _) => (vec![own.error(), own.standard_error()], NO_QUANTITY),
         };
         let (headings, _) = file.headings(&columns);
         set_aside.extend(headings.into_iter().map(|heading| (heading, why)));
@@ -230,7 +222,7 @@ fn wanted(
     }
     if is_analysis {
         let of_drive = prescribed(control);
-        wanted.extend([of_drive.error, of_drive.standard_error]);
+        wanted.extend([of_drive.error(), of_drive.standard_error()]);
     }
     if data.is_empty() {
         let names = MEASURED
@@ -264,7 +256,8 @@ struct Rows<'a> {
 impl Rows<'_> {
     /// The place of a column, where the table has it.
     fn place_of(&self, column: &Column) -> Option<usize> {
-        self.wanted.iter().position(|of| of.names == column.names)
+        let is_it = |of: &Column| (of.names, of.ending) == (column.names, column.ending);
+        self.wanted.iter().position(is_it)
     }
 
     /// The number in a cell, with its place; `None` where there is none.
@@ -284,7 +277,7 @@ impl Rows<'_> {
             let Some(value) = self.number(row, &own.value) else {
                 continue;
             };
-            let errors = [&own.error, &own.standard_error].map(|column| self.cell(row, column));
+            let errors = [own.error(), own.standard_error()].map(|column| self.cell(row, &column));
             if let Some((_, place)) = errors.iter().flatten().find(|(error, _)| *error <= 0.0) {
                 self.problems
                     .at(place, "an error must be above zero")
@@ -304,12 +297,12 @@ impl Rows<'_> {
 
     /// The standard deviation of a number in a row, where it is known.
     fn standard_deviation(&self, row: usize, own: &Measured) -> Option<f64> {
-        let error = self.number(row, &own.error);
+        let error = self.number(row, &own.error());
         let of_error = match self.is_analysis {
             true => error.map(|half_width| half_width / NORMAL),
             false => error,
         };
-        self.number(row, &own.standard_error).or(of_error)
+        self.number(row, &own.standard_error()).or(of_error)
     }
 
     /// The relative standard deviation of the amplitude of the drive in a table of an analysis, where it is measured. The model is driven by

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use super::data_file::{Column, DataFile, Holes, TIME};
+use super::data_file::{Column, DataFile, Holes, MAX_BYTES, TIME, contents};
 use super::diagnostic::{Diagnostic, Diagnostics, Location};
 use crate::material::tabulated::{TableColumn, TableError, Tabulated};
 use crate::material::{MaterialFunction, ModulusKind};
@@ -58,7 +58,8 @@ pub(crate) fn read(
     function: MaterialFunction,
     kind: ModulusKind,
 ) -> Result<Tabulated, Diagnostics> {
-    tabulated(&DataFile::read(path)?, function, kind)
+    let (name, bytes) = contents(path, MAX_BYTES)?;
+    parse(&name, &bytes, function, kind)
 }
 
 /// Reads a table from the bytes of a file that messages call `name`.
@@ -71,17 +72,10 @@ pub(crate) fn parse(
     function: MaterialFunction,
     kind: ModulusKind,
 ) -> Result<Tabulated, Diagnostics> {
-    tabulated(&DataFile::from_bytes(name, bytes)?, function, kind)
-}
-
-fn tabulated(
-    file: &DataFile,
-    function: MaterialFunction,
-    kind: ModulusKind,
-) -> Result<Tabulated, Diagnostics> {
+    let file = DataFile::from_bytes(name, bytes)?;
     let values = values_of(function, kind);
     if !file.has_any(&[values])
-        && let Some(help) = meant_for(file, function, kind)
+        && let Some(help) = meant_for(&file, function, kind)
     {
         let message = format!("no column `{}`", values.name_in_si());
         return Err(Diagnostic::at(&file.first_line(), message)

@@ -111,7 +111,7 @@ fn values_that_cannot_be_are_refused_where_they_are_given() {
     let mut plan = sweep().frequencies_hz([1.0]).unwrap().into_plan();
     plan.cycle.steps = 0;
     let refused = Setup::new(plan.clone()).err().unwrap().to_string();
-    assert!(refused.contains("steps per cycle = 0"), "{refused}");
+    assert!(refused.contains("cycle.steps = 0"), "{refused}");
     plan.cycle.steps = 8;
     let case = contact_dma::sweep::plan::Case {
         index: 0,

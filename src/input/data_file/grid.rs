@@ -1,11 +1,15 @@
 //! A text as lines of cells, of which any may be a header, a row of units, a row of numbers or none of these.
 
+use std::cmp::Reverse;
 use std::ops::Range;
 use std::sync::Arc;
 
 use super::numbers;
 use super::text::{self, DELIMITERS};
 use crate::input::diagnostic::{Diagnostics, Location, Source};
+
+/// Lines above the header at most.
+pub(crate) const MOST_LINES_ABOVE: usize = 300;
 
 /// The text of an instrument's file, and how many of its bytes were no UTF-8.
 ///
@@ -37,6 +41,21 @@ impl Grid {
         };
         let single = DELIMITERS.map(|(delimiter, _)| Self::new(source, delimiter));
         single.into_iter().chain([wide])
+    }
+
+    /// Of every way to cut a text that in which the first line that has a score, of those that may stand above a table, has the best, and
+    /// that line; of equal ones the first.
+    pub(crate) fn best<S: Ord>(
+        source: &Arc<Source>,
+        score: impl Fn(&Self, usize) -> Option<S>,
+    ) -> Option<(Self, usize)> {
+        let found = Self::every(source).filter_map(|grid| {
+            let mut lines = 0..grid.len().min(MOST_LINES_ABOVE);
+            let (score, line) = lines.find_map(|line| Some((score(&grid, line)?, line)))?;
+            Some((Reverse(score), grid, line))
+        });
+        let best = found.min_by(|(a, _, _), (b, _, _)| a.cmp(b));
+        best.map(|(_, grid, line)| (grid, line))
     }
 
     /// Cuts what an instrument wrote: comments are lines too, and lines of delimiters alone hold nothing.
@@ -184,7 +203,6 @@ pub(super) fn line_at(source: &Arc<Source>, start: usize) -> Location {
 /// The cells of a line.
 pub(crate) struct Line<'a> {
     source: &'a Arc<Source>,
-    pub(super) delimiter: char,
     cells: Vec<Range<usize>>,
 }
 
@@ -196,11 +214,7 @@ impl<'a> Line<'a> {
         if !part.is_empty() {
             text::cells_from(text, part.start, delimiter, &mut cells);
         }
-        Self {
-            source,
-            delimiter,
-            cells,
-        }
+        Self { source, cells }
     }
 
     pub(crate) fn len(&self) -> usize {

@@ -75,9 +75,7 @@ impl Numbers {
             None => Cell::Bad("not a number"),
             Some(number) if !number.is_finite() => Cell::Bad("not a finite number"),
             Some(number) => {
-                if line.delimiter != ',' || text.contains(',') {
-                    self.see(text, &line.span(cell));
-                }
+                self.see(text, &line.span(cell));
                 Cell::Number(number)
             }
         }

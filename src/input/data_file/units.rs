@@ -101,18 +101,6 @@ pub(crate) fn kelvin(celsius: &str) -> Option<f64> {
     (kelvin.is_finite() && kelvin > 0.0).then_some(kelvin)
 }
 
-/// Units as they are written in lower case, behind the name of a column.
-const SUFFIXES: [(&str, &str); 8] = [
-    ("pa", "Pa"),
-    ("kpa", "kPa"),
-    ("mpa", "MPa"),
-    ("gpa", "GPa"),
-    ("n", "N"),
-    ("kn", "kN"),
-    ("hz", "Hz"),
-    ("j", "J"),
-];
-
 /// Name and unit in `Time [s]`, `Time (s)` and `Time / s`; the argument of `E(t)` is no unit.
 pub(crate) fn split_unit(cell: &str) -> (&str, Option<&str>) {
     let bracketed = [('[', ']'), ('(', ')')]
@@ -128,16 +116,15 @@ pub(crate) fn split_unit(cell: &str) -> (&str, Option<&str>) {
 /// The unit that `per_mpa`, `ms` or `rad_per_s` stand for, where it is one of this dimension.
 pub(crate) fn unit_of_suffix(suffix: &str, dimension: Dimension) -> Option<String> {
     let spelt = |word: &str| {
-        let lower = word.to_lowercase();
-        let usual = SUFFIXES.iter().find(|(suffix, _)| *suffix == lower);
-        usual.map_or(word.to_owned(), |(_, unit)| (*unit).to_owned())
+        let usual = ["Pa", "kPa", "MPa", "GPa", "N", "kN", "Hz", "J"];
+        let known = usual.iter().find(|usual| usual.eq_ignore_ascii_case(word));
+        known.copied().unwrap_or(word).to_owned()
     };
     let words = |text: &str| text.split('_').map(spelt).collect::<Vec<_>>().join(" ");
     let unit = |text: &str| words(text).replace("per ", "/").replace(" /", "/");
     let candidates = [unit(suffix), unit(&suffix.to_lowercase())];
-    let unit = candidates
-        .into_iter()
-        .find(|unit| scale(unit, dimension).is_ok())?;
+    let is_unit = |unit: &String| quantity::parse(&format!("1 {unit}"), dimension).is_ok();
+    let unit = candidates.into_iter().find(is_unit)?;
     Some(match unit.starts_with('/') {
         true => format!("1{unit}"),
         false => unit,

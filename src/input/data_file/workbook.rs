@@ -6,6 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use calamine::{Data, DataRef, Reader, Xls, Xlsx};
 
+use super::within;
 use crate::input::diagnostic::Diagnostic;
 use crate::input::file_kind;
 
@@ -49,11 +50,7 @@ pub(crate) fn silence_caught_panics() {
 /// # Errors
 /// No workbook, a broken one, or one that is too large.
 pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Vec<(String, String)>, Diagnostic> {
-    if bytes.len() > MAX_BYTES {
-        let megabytes = MAX_BYTES / 1_000_000;
-        let message = format!("the workbook `{name}` is larger than {megabytes} MB");
-        return Err(Diagnostic::new(message).help("save the sheet of the data as CSV"));
-    }
+    within(name, bytes, MAX_BYTES, "save the sheet of the data as CSV")?;
     // The crate that reads workbooks is not free of panics on broken ones.
     IS_READING.set(true);
     let sheets = catch_unwind(AssertUnwindSafe(|| sheets(bytes)));
@@ -143,11 +140,9 @@ fn sheets(bytes: &[u8]) -> Result<Vec<(String, String)>, Broken> {
     if bytes.starts_with(b"PK") {
         check_archive(bytes)?;
         let mut book: Xlsx<_> = Xlsx::new(Cursor::new(bytes))?;
-        let names = wanted(book.sheet_names());
-        return names
-            .into_iter()
-            .map(|sheet| Ok((sheet.clone(), xlsx_sheet(&mut book, &sheet)?)))
-            .collect();
+        let names = wanted(book.sheet_names()).into_iter();
+        let sheet = |sheet: String| Ok((sheet.clone(), xlsx_sheet(&mut book, &sheet)?));
+        return names.map(sheet).collect();
     }
     check_records(bytes)?;
     let mut book: Xls<_> = Xls::new(Cursor::new(bytes))?;
@@ -157,11 +152,8 @@ fn sheets(bytes: &[u8]) -> Result<Vec<(String, String)>, Broken> {
         let mut text = Rows::default();
         let (top, left) = range.start().unwrap_or((0, 0));
         for (row, column, cell) in range.used_cells() {
-            text.push(
-                top + u32::try_from(row).unwrap_or(u32::MAX / 2),
-                left + u32::try_from(column).unwrap_or(u32::MAX / 2),
-                &written(cell),
-            )?;
+            let (row, column) = (u32::try_from(row)?, u32::try_from(column)?);
+            text.push(top + row, left + column, &written(cell))?;
         }
         Ok((sheet, text.text))
     };
@@ -227,12 +219,10 @@ impl Rows {
     }
 }
 
+/// What is read of a cell: no dates, and no errors of formulas.
 fn written(cell: &Data) -> String {
     match cell {
-        Data::Float(number) => format!("{number}"),
-        Data::Int(number) => format!("{number}"),
-        Data::String(text) => text.clone(),
-        Data::Bool(value) => format!("{value}"),
+        Data::Float(_) | Data::Int(_) | Data::String(_) | Data::Bool(_) => cell.to_string(),
         _ => String::new(),
     }
 }

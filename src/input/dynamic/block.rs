@@ -48,13 +48,11 @@ pub(super) struct Content {
 }
 
 /// A column that is read.
-#[derive(Clone)]
 pub(super) struct Column {
-    pub(super) place: usize,
-    pub(super) role: Role,
-    pub(super) scale: Scale,
+    asked: Asked,
+    role: Role,
     /// As written.
-    pub(super) unit: Option<String>,
+    unit: Option<String>,
 }
 
 /// Storage and loss modulus from two columns.
@@ -169,14 +167,13 @@ impl<'a> Block<'a> {
         let help =
             "write it as `1.5e6`, write `---` where it is missing, or leave the whole row out";
         let problems = Problems::new();
-        let table = self
-            .section
-            .read(&columns.asked(), Holes::Kept, help, &problems);
+        let asked = (columns.numbers.each_ref()).map(|column| Some(column.as_ref()?.asked));
+        let table = self.section.read(&asked, Holes::Kept, help, &problems);
         let mut content = Content {
             points: Vec::new(),
             missing: 0,
             noise: None,
-            is_in_hertz: columns.frequency.scale.factor == TAU,
+            is_in_hertz: matches!(asked[0], Some(frequency) if frequency.scale.factor == TAU),
             notes,
         };
         for row in 0..table.len() {
@@ -206,7 +203,7 @@ impl<'a> Block<'a> {
     /// What a row gives.
     fn point(&self, columns: &Columns, table: &Table, row: usize) -> Row {
         let number = |which: usize| table.number(row, which);
-        for (which, column) in columns.needed().enumerate() {
+        for (which, asked) in columns.numbers.iter().flatten().take(3).enumerate() {
             if number(which).is_none_or(|number| number > 0.0) {
                 continue;
             }
@@ -214,7 +211,7 @@ impl<'a> Block<'a> {
             if self.by_instrument || which == 2 {
                 return Row::Noise;
             }
-            let message = format!("{} must be positive", column.role.what());
+            let message = format!("{} must be positive", asked.role.what());
             let help = "leave the row out: a measured value that is not positive is noise";
             return Row::Refused(Diagnostic::at(&table.cell(row, which), message).help(help));
         }
@@ -227,7 +224,7 @@ impl<'a> Block<'a> {
         }
         let moduli = (columns.moduli)(first, second);
         let error = |which: usize, modulus_pa: f64| {
-            let column = columns.errors[which].as_ref()?;
+            let column = columns.numbers[4 + which].as_ref()?;
             Some(column.absolute(number(4 + which)?, modulus_pa)).filter(|error| *error > 0.0)
         };
         let point = DynamicPoint {
@@ -244,7 +241,7 @@ impl<'a> Block<'a> {
             return Row::Refused(Diagnostic::at(&place, message).help(help));
         }
         let set = columns.set.as_ref();
-        let set = set.map(|column| table.line(row).text(column.place).to_owned());
+        let set = set.map(|column| table.line(row).text(column.asked.place).to_owned());
         Row::Measured(Measured { point, place, set })
     }
 
@@ -256,23 +253,23 @@ impl<'a> Block<'a> {
                 .help(format!("name it with its unit, such as {example}")));
         }
         let find = |role| self.find(&names, role, kind);
-        let needed = |role| find(role)?.ok_or_else(|| self.other_modulus(0, kind));
+        let frequency = match find(Role::AngularFrequency)? {
+            Some(angular) => Some(angular),
+            None => find(Role::Frequency)?,
+        };
         let (first, second, moduli) = *pair(&names).unwrap_or(&PAIRS[0]);
+        let [first, second] = [find(first)?, find(second)?];
+        let temperature = match self.is_master {
+            true => None,
+            false => find(Role::Temperature)?,
+        };
         let errors = [find(Role::StorageError)?, find(Role::LossError)?];
         let has_one_error = errors.iter().flatten().count() == 1;
+        let [storage, loss] = if has_one_error { [None, None] } else { errors };
         Ok(Columns {
-            frequency: match find(Role::AngularFrequency)? {
-                Some(angular) => angular,
-                None => needed(Role::Frequency)?,
-            },
-            pair: [needed(first)?, needed(second)?],
+            numbers: [frequency, first, second, temperature, storage, loss],
             moduli,
-            temperature: match self.is_master {
-                true => None,
-                false => find(Role::Temperature)?,
-            },
             set: find(Role::Set)?,
-            errors: if has_one_error { [None, None] } else { errors },
             has_one_error,
         })
     }
@@ -299,10 +296,8 @@ impl<'a> Block<'a> {
         }
         let read = asked.iter().map(|(place, named)| {
             Ok(Column {
-                place: *place,
-                role,
-                scale: self.scale(*place, named)?,
                 unit: self.unit_of(*place, named),
+                ..Column::at(*place, role, self.scale(*place, named)?)
             })
         });
         let read: Vec<Result<Column, Diagnostic>> = read.collect();
@@ -331,10 +326,9 @@ impl<'a> Block<'a> {
 
     /// The names of the columns, with their units, and what is assumed.
     fn notes(&self, columns: &Columns) -> Vec<String> {
-        let others = columns.temperature.iter().chain(&columns.set);
-        let errors = columns.errors.iter().flatten();
-        let described = columns.needed().chain(others).chain(errors).map(|column| {
-            let name = self.section.header.text(column.place);
+        let all = columns.numbers.iter().flatten().chain(&columns.set);
+        let described = all.map(|column| {
+            let name = self.section.header.text(column.asked.place);
             let unit = column.unit.as_deref().filter(|unit| !name.contains(unit));
             unit.map_or_else(|| format!("`{name}`"), |unit| format!("`{name}` [{unit}]"))
         });
@@ -343,8 +337,8 @@ impl<'a> Block<'a> {
         if columns.has_one_error {
             notes.push("the errors of one modulus alone are not used".to_owned());
         }
-        let frequency = &columns.frequency;
-        if frequency.role == Role::AngularFrequency && frequency.unit.is_none() {
+        let frequency = columns.numbers[0].as_ref();
+        if frequency.is_some_and(|of| of.role == Role::AngularFrequency && of.unit.is_none()) {
             notes.push("angular frequencies without a unit are taken in rad/s".to_owned());
         }
         notes
@@ -373,6 +367,16 @@ enum Row {
 }
 
 impl Column {
+    /// One of a known role that is in this place.
+    pub(super) fn at(place: usize, role: Role, scale: Scale) -> Self {
+        let what = role.what();
+        Self {
+            asked: Asked { place, scale, what },
+            role,
+            unit: None,
+        }
+    }
+
     /// The error of a modulus (Pa).
     fn absolute(&self, error: f64, modulus_pa: f64) -> f64 {
         match self.unit.as_deref().is_some_and(columns::is_relative) {
@@ -384,34 +388,10 @@ impl Column {
 
 /// The columns that are read.
 pub(super) struct Columns {
-    pub(super) frequency: Column,
-    /// What the moduli come from.
-    pub(super) pair: [Column; 2],
+    /// Frequency, the two that the moduli come from, temperature, errors of storage and loss modulus, both or none.
+    pub(super) numbers: [Option<Column>; 6],
     pub(super) moduli: Moduli,
-    pub(super) temperature: Option<Column>,
     pub(super) set: Option<Column>,
-    /// Of storage and loss modulus; both or none.
-    pub(super) errors: [Option<Column>; 2],
     /// Whether the table has errors of one modulus alone, which are not used.
     pub(super) has_one_error: bool,
-}
-
-impl Columns {
-    /// Frequency, and what the moduli come from.
-    fn needed(&self) -> impl Iterator<Item = &Column> {
-        std::iter::once(&self.frequency).chain(&self.pair)
-    }
-
-    /// Those of numbers: what is needed, temperature, errors.
-    fn asked(&self) -> Vec<Option<Asked>> {
-        let [storage, loss] = &self.errors;
-        let others = [&self.temperature, storage, loss].map(Option::as_ref);
-        let asked = |column: &Column| Asked {
-            place: column.place,
-            scale: column.scale,
-            what: column.role.what(),
-        };
-        let all = self.needed().map(Some).chain(others);
-        all.map(|column| column.map(asked)).collect()
-    }
 }

@@ -55,11 +55,6 @@ impl Role {
         self.facts().0
     }
 
-    /// A unit that it may have, for messages.
-    pub(super) fn example_unit(self) -> &'static str {
-        self.facts().1
-    }
-
     pub(super) fn dimension(self) -> Option<Dimension> {
         self.facts().2
     }
@@ -220,7 +215,7 @@ pub(super) fn scale(role: Role, unit: Option<&str>) -> Result<Scale, String> {
     let Some(unit) = given else {
         return match role.has_own_unit() {
             true => Ok(Scale::ONE),
-            false => Err(format!("write its unit, such as [{}]", role.example_unit())),
+            false => Err(format!("write its unit, such as [{}]", role.facts().1)),
         };
     };
     match role {

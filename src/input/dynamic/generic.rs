@@ -12,11 +12,8 @@ use std::sync::Arc;
 
 use super::Reading;
 use super::block::{self, Block};
-use crate::input::data_file::grid::Grid;
+use crate::input::data_file::grid::{Grid, MOST_LINES_ABOVE};
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Source};
-
-/// Lines above the header at most.
-const MOST_LINES_ABOVE: usize = 300;
 
 /// Reads every table of the text.
 ///
@@ -49,21 +46,17 @@ pub(super) fn blocks(grid: &Grid, first: usize) -> Vec<Block<'_>> {
 
 /// The line that names most columns of dynamic data, cut by the delimiter that shows them.
 pub(super) fn header(source: &Arc<Source>) -> Option<(Grid, usize)> {
-    let found = Grid::every(source).filter_map(|grid| {
+    Grid::best(source, |grid, line| {
         // A line of names with other delimiters is not one of names between blanks.
-        let is_cut =
-            |line: &usize| grid.delimiter() != ' ' || !grid.text(*line).contains([',', ';']);
-        let mut lines = (0..grid.len().min(MOST_LINES_ABOVE)).filter(is_cut);
-        let (line, names) = lines.find_map(|line| {
-            let names = block::names(&grid.header(line));
-            block::is_dynamic(&names).then_some((line, names))
-        })?;
+        if grid.delimiter() == ' ' && grid.text(line).contains([',', ';']) {
+            return None;
+        }
+        let header = grid.header(line);
+        let names = block::names(&header);
         // As many names as the rows further down have cells.
-        let fits = grid.header(line).len() == grid.line(line + 2).len();
-        Some(((names.iter().flatten().count(), fits), grid, line))
-    });
-    let best = found.min_by_key(|(score, _, _)| Reverse(*score));
-    best.map(|(_, grid, line)| (grid, line))
+        let fits = header.len() == grid.line(line + 2).len();
+        block::is_dynamic(&names).then(|| (names.iter().flatten().count(), fits))
+    })
 }
 
 /// Why a text is no table of dynamic data: by the line that comes closest.

@@ -43,22 +43,27 @@ pub(super) fn split(
     if block.by_instrument && width(&temperatures) <= WIDEST_STEP_K && frequencies_differ(&points) {
         return Ok(vec![points]);
     }
-    let starts = starts(&temperatures);
-    let mut from = 0;
-    for next in starts.iter().skip(1).copied().chain([f64::INFINITY]) {
-        let to = temperatures.partition_point(|temperature| *temperature < next);
-        let inside = temperatures.get(from..to).unwrap_or_default();
-        if width(inside) > WIDEST_CLUSTER_K {
-            return Err(ramp(block, &points, inside));
-        }
-        from = to;
+    let gaps = temperatures.windows(2).map(|pair| pair[1] - pair[0]);
+    let least = (SHARE_OF_LARGEST * gaps.fold(0.0, f64::max)).clamp(GAP_K.0, GAP_K.1);
+    let clusters: Vec<&[f64]> = temperatures.chunk_by(|a, b| b - a <= least).collect();
+    let mut wide = clusters
+        .iter()
+        .filter(|cluster| width(cluster) > WIDEST_CLUSTER_K);
+    if let (Some([first, .., last]), Some(measured)) = (wide.next(), points.first()) {
+        let (first, last) = (celsius(*first), celsius(*last));
+        let message = format!(
+            "temperatures run from {first} to {last} without a gap: these are no isotherms"
+        );
+        return Err(Diagnostic::at(&measured.place, message).help(
+            "measure at constant temperatures, or add a column `Set` that numbers the isotherms",
+        ));
     }
-    let mut isotherms: Vec<Vec<Measured>> = starts.iter().map(|_| Vec::new()).collect();
+    let mut isotherms: Vec<Vec<Measured>> = clusters.iter().map(|_| Vec::new()).collect();
     for measured in points {
         let temperature = measured.point.temperature_k.unwrap_or_default();
-        let which = starts
-            .partition_point(|start| *start <= temperature)
-            .saturating_sub(1);
+        let is_below =
+            |cluster: &&[f64]| cluster.first().is_some_and(|first| *first <= temperature);
+        let which = clusters.partition_point(is_below).saturating_sub(1);
         if let Some(isotherm) = isotherms.get_mut(which) {
             isotherm.push(measured);
         }
@@ -66,40 +71,11 @@ pub(super) fn split(
     Ok(isotherms)
 }
 
-fn ramp(block: &Block<'_>, points: &[Measured], inside: &[f64]) -> Diagnostic {
-    let ends = [inside.first(), inside.last()].map(|end| celsius(end.copied().unwrap_or_default()));
-    let place = points.first().map_or_else(
-        || block.section.grid.whole(),
-        |measured| measured.place.clone(),
-    );
-    let message = format!(
-        "temperatures run from {} to {} without a gap: these are no isotherms",
-        ends[0], ends[1]
-    );
-    Diagnostic::at(&place, message)
-        .help("measure at constant temperatures, or add a column `Set` that numbers the isotherms")
-}
-
 fn width(ascending: &[f64]) -> f64 {
     ascending
         .first()
         .zip(ascending.last())
         .map_or(0.0, |(first, last)| last - first)
-}
-
-/// The lowest temperature of every isotherm.
-fn starts(ascending: &[f64]) -> Vec<f64> {
-    let gaps = || {
-        ascending
-            .windows(2)
-            .map(|pair| (pair[1] - pair[0], pair[1]))
-    };
-    let largest = gaps().map(|(gap, _)| gap).fold(0.0, f64::max);
-    let least = (SHARE_OF_LARGEST * largest).clamp(GAP_K.0, GAP_K.1);
-    let above = gaps()
-        .filter(|(gap, _)| *gap > least)
-        .map(|(_, start)| start);
-    ascending.iter().take(1).copied().chain(above).collect()
 }
 
 fn frequencies_differ(points: &[Measured]) -> bool {

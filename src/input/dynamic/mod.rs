@@ -45,6 +45,9 @@ pub use shift_factors::{read_shift_factors, shift_factors_from_bytes};
 /// Largest file read, bytes: ten thousand points of a hundred columns of thirty characters each.
 pub const MAX_BYTES: usize = 32_000_000;
 
+/// What to do about a file that is larger.
+const FEWER: &str = "export fewer columns, and no waveforms";
+
 /// A format of files of dynamic data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DynamicFormat {
@@ -164,7 +167,7 @@ fn one_file(
     format: Option<DynamicFormat>,
     reading: &mut Reading,
 ) -> Result<DynamicFormat, Diagnostics> {
-    within_limit(name, bytes)?;
+    data_file::within(name, bytes, MAX_BYTES, FEWER)?;
     if name.to_lowercase().ends_with(".tri") {
         return Err(binary_trios(name).into());
     }
@@ -219,17 +222,6 @@ fn text(name: &str, bytes: &[u8], reading: &mut Reading) -> Result<Arc<Source>, 
 fn binary_trios(name: &str) -> Diagnostic {
     Diagnostic::new(format!("`{name}` is binary, and its moduli cannot be read"))
         .help("export it as text or CSV; of a `.tri` file, in TRIOS: File, Export, as CSV, as text or to LIMS")
-}
-
-fn within_limit(name: &str, bytes: &[u8]) -> Result<(), Diagnostic> {
-    match bytes.len() > MAX_BYTES {
-        true => Err(Diagnostic::new(format!(
-            "`{name}` is larger than {} MB",
-            MAX_BYTES / 1_000_000
-        ))
-        .help("export fewer columns, and no waveforms")),
-        false => Ok(()),
-    }
 }
 
 /// What was read so far.

@@ -64,19 +64,12 @@ pub(super) fn read(source: &Arc<Source>, reading: &mut Reading) -> Result<(), Di
     let mut block = Block::of(Section::without_names(&grid, first)).by_instrument();
     block.temperature_k = temperature(&grid, reading)?;
     let scales = units.unwrap_or([Scale::ONE; 3]);
-    let column = |place: usize, role| Column {
-        place,
-        role,
-        scale: scales[place],
-        unit: None,
-    };
+    let column = |place: usize, role| Some(Column::at(place, role, scales[place]));
+    let [omega, storage] = [column(0, Role::AngularFrequency), column(1, Role::Storage)];
     let columns = Columns {
-        frequency: column(0, Role::AngularFrequency),
-        pair: [column(1, Role::Storage), column(2, Role::Loss)],
+        numbers: [omega, storage, column(2, Role::Loss), None, None, None],
         moduli: |storage, loss| (storage, loss),
-        temperature: None,
         set: None,
-        errors: [None, None],
         has_one_error: false,
     };
     let note = "columns read: the first three, as angular frequency, G' and G''".to_owned();

@@ -38,23 +38,19 @@ pub fn read_shift_factors(path: &Path) -> Result<Vec<(f64, f64)>, Diagnostics> {
 /// # Errors
 /// No such columns, cells that are no numbers, temperatures not above absolute zero.
 pub fn shift_factors_from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<(f64, f64)>, Diagnostics> {
-    super::within_limit(name, bytes)?;
+    data_file::within(name, bytes, super::MAX_BYTES, super::FEWER)?;
     let (source, _) = grid::source(name, bytes)?;
-    let found = Grid::every(&source).find_map(|grid| {
-        let mut lines = 0..grid.len().min(50);
-        let (header, places) = lines.find_map(|line| Some((line, places(&grid.header(line))?)))?;
-        Some((grid, header, places))
-    });
-    let Some((grid, header, places)) = found else {
-        return Err(Diagnostic::at(
-            &Grid::new(&source, ',').place(0),
-            "no table of shift factors",
-        )
-        .help(
-            "begin it with `temperature_c,log10_a_t`, or with `T,log_aT` and a row of units `C,-`",
-        )
-        .into());
+    let is_header = |grid: &Grid, line| places(&grid.header(line)).map(|_| ());
+    let found = Grid::best(&source, is_header);
+    let Some((grid, header)) = found else {
+        let place = Grid::new(&source, ',').place(0);
+        let help =
+            "begin it with `temperature_c,log10_a_t`, or with `T,log_aT` and a row of units `C,-`";
+        return Err(Diagnostic::at(&place, "no table of shift factors")
+            .help(help)
+            .into());
     };
+    let places = places(&grid.header(header)).unwrap_or_default();
     let end = grid.len();
     let mut section = Section::new(&grid, header, end, |place| places.contains(&place));
     section.may_be_ragged = true;
@@ -73,20 +69,12 @@ pub fn shift_factors_from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<(f64, f6
         "write it as `-1.5`, or leave the whole row out",
     );
     let table = section.read(&asked, Holes::Refused, help, &problems);
-    let pairs: Vec<(f64, f64)> = table
-        .values
-        .chunks_exact(2)
-        .map(|row| (row[0], row[1]))
-        .collect();
-    for (row, _) in pairs
-        .iter()
-        .enumerate()
-        .filter(|(_, (kelvin, _))| *kelvin <= 0.0)
-    {
+    let rows = table.values.chunks_exact(2);
+    let pairs: Vec<(f64, f64)> = rows.map(|row| (row[0], row[1])).collect();
+    for row in (0..pairs.len()).filter(|row| pairs[*row].0 <= 0.0) {
         let message = format!("the temperature must be above {} °C", -ZERO_CELSIUS_K);
-        problems
-            .at(&table.cell(row, 0), message)
-            .help("check the unit of the temperatures");
+        let report = problems.at(&table.cell(row, 0), message);
+        report.help("check the unit of the temperatures");
     }
     if pairs.is_empty() && problems.is_empty() {
         let message = "the table of shift factors has no rows";
@@ -100,9 +88,8 @@ pub fn shift_factors_from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<(f64, f6
 fn places(header: &Line<'_>) -> Option<[usize; 2]> {
     let is_temperature =
         |text: &str| columns::recognise(text).is_some_and(|named| named.role == Role::Temperature);
+    let is_factor = |text: &str| NAMES.contains(&text.to_lowercase().as_str());
     let temperature = header.texts().position(is_temperature)?;
-    let factor = header
-        .texts()
-        .position(|text| NAMES.contains(&text.to_lowercase().as_str()))?;
+    let factor = header.texts().position(is_factor)?;
     Some([temperature, factor])
 }

@@ -389,6 +389,11 @@ fn names_may_have_symbols_and_blanks_and_stand_below_other_lines() {
             &expected,
         );
     }
+    let text =
+        "Frequency (Hz),E' [MPa],E'' [MPa],temperature_c\n1,2,0.1,25\n2,3,0.2,25\n3,4,0.3,25\n";
+    let file = read_text(text, ModulusKind::Longitudinal).unwrap();
+    let columns = "columns read: `Frequency (Hz)`, `E' [MPa]`, `E'' [MPa]`, `temperature_c` [°C]";
+    assert!(file.notes.contains(&columns.to_owned()), "{:?}", file.notes);
     let refused = read_text(
         "log f [Hz],log E' [Pa],log E'' [Pa]\n-1,9,8\n0,9.1,8\n",
         ModulusKind::Longitudinal,
