@@ -3,9 +3,11 @@
 #![allow(dead_code)] // Each test file uses its own part.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use assert_cmd::Command;
+use serde_json::Value;
+use tempfile::TempDir;
 
 /// The program, without what the surroundings might ask of it.
 pub fn program() -> Command {
@@ -16,7 +18,7 @@ pub fn program() -> Command {
 }
 
 /// For tests that look at no PNG, which takes longer to make than everything else of a small run.
-pub const SVG_ALONE: [&str; 2] = ["--set", "figures.formats=['svg']"];
+pub const SVG: &str = "--set figures.formats=[\"svg\"]";
 
 /// Writes a file into a folder, or a folder of that; its path.
 pub fn write(folder: impl AsRef<Path>, name: &str, text: &str) -> String {
@@ -39,4 +41,215 @@ mean = "10 N"
 amplitude = "5 N"
 "#;
     format!("{question}{rest}")
+}
+
+/// The folder of a test, in which the program runs.
+pub struct Place(pub TempDir);
+
+impl Place {
+    pub fn new() -> Self {
+        Self(TempDir::new().unwrap())
+    }
+
+    /// A new one with this file.
+    pub fn with(name: &str, text: &str) -> Self {
+        let place = Self::new();
+        place.put(name, text);
+        place
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// Writes a file, and the folder that it lies in.
+    pub fn put(&self, name: &str, content: impl AsRef<[u8]>) {
+        let path = self.path(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, content).unwrap();
+    }
+
+    pub fn has(&self, name: &str) -> bool {
+        self.path(name).exists()
+    }
+
+    pub fn bytes(&self, name: &str) -> Vec<u8> {
+        fs::read(self.path(name)).unwrap_or_else(|why| panic!("{name}: {why}"))
+    }
+
+    pub fn text(&self, name: &str) -> String {
+        String::from_utf8(self.bytes(name)).unwrap()
+    }
+
+    pub fn json(&self, name: &str) -> Value {
+        serde_json::from_slice(&self.bytes(name)).unwrap()
+    }
+
+    pub fn table(&self, name: &str) -> Table {
+        Table::of(&self.text(name))
+    }
+
+    /// A command line here, as [`program`]; what stands between single quotes is one argument.
+    fn command(&self, line: &str) -> Command {
+        let quoted = line.split('\'').enumerate();
+        let arguments = quoted.flat_map(|(k, part)| match k % 2 {
+            0 => part.split_whitespace().collect(),
+            _ => vec![part],
+        });
+        let mut command = program();
+        command.current_dir(self.0.path()).args(arguments);
+        command
+    }
+
+    /// Runs a command line in these surroundings.
+    pub fn run_in(&self, line: &str, surroundings: &[(&str, &str)]) -> Run {
+        let surroundings = surroundings.iter().copied();
+        Run::of(self.command(line).envs(surroundings))
+    }
+
+    /// Runs a command line in a folder of this one.
+    pub fn run_at(&self, folder: &str, line: &str) -> Run {
+        Run::of(self.command(line).current_dir(self.path(folder)))
+    }
+
+    /// Runs a command line with this on standard input.
+    pub fn run_on(&self, line: &str, input: &str) -> Run {
+        Run::of(self.command(line).write_stdin(input))
+    }
+
+    pub fn run(&self, line: &str) -> Run {
+        self.run_in(line, &[])
+    }
+
+    /// Runs a command that does its work.
+    #[track_caller]
+    pub fn done(&self, line: &str) -> Run {
+        self.run(line).ended(0)
+    }
+
+    /// Runs a command that ends like this: what it says on standard error.
+    #[track_caller]
+    pub fn ends(&self, line: &str, code: i32) -> String {
+        self.run(line).ended(code).stderr
+    }
+
+    /// Runs a command that refuses its input: what it says on standard error, on one line.
+    #[track_caller]
+    pub fn refused(&self, line: &str) -> String {
+        let run = self.run(line).ended(2);
+        assert_eq!(run.stdout, "", "{line}");
+        words(&run.stderr)
+    }
+
+    /// Sweeps a file of this text without figures; its table. What is resolved is in out/resolved.toml.
+    #[track_caller]
+    pub fn swept(&self, text: &str) -> Table {
+        self.put("sweep.toml", text);
+        self.done("sweep sweep.toml --quiet --force --no-figures --out out");
+        self.table("out/sweep.csv")
+    }
+}
+
+/// What a command has said.
+#[derive(Debug)]
+pub struct Run {
+    pub code: i32,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+impl Run {
+    fn of(command: &mut Command) -> Self {
+        let output = command.output().unwrap();
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        Self {
+            code: output.status.code().unwrap(),
+            stdout: text(output.stdout),
+            stderr: text(output.stderr),
+        }
+    }
+
+    #[track_caller]
+    pub fn ended(self, code: i32) -> Self {
+        assert_eq!(self.code, code, "{}{}", self.stdout, self.stderr);
+        self
+    }
+
+    /// All of this stands on standard output, wherever lines end there.
+    #[track_caller]
+    pub fn says(self, parts: &[&str]) -> Self {
+        let said = words(&self.stdout);
+        for part in parts {
+            assert!(said.contains(part), "{part} is not in:\n{}", self.stdout);
+        }
+        self
+    }
+
+    pub fn json(&self) -> Value {
+        serde_json::from_str(&self.stdout).unwrap()
+    }
+}
+
+/// The doubles in a file of NumPy.
+pub fn npy(bytes: &[u8]) -> Vec<f64> {
+    assert!(bytes.starts_with(b"\x93NUMPY\x01\x00"));
+    let header = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+    let doubles = bytes[header..].chunks_exact(8);
+    doubles
+        .map(|double| f64::from_le_bytes(double.try_into().unwrap()))
+        .collect()
+}
+
+/// A text on one line.
+pub fn words(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+/// A table as files of results have it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    pub columns: Vec<String>,
+    pub rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    pub fn of(text: &str) -> Self {
+        let mut reader = csv::Reader::from_reader(text.as_bytes());
+        let cells = |row: &csv::StringRecord| row.iter().map(str::to_owned).collect();
+        Self {
+            columns: cells(reader.headers().unwrap()),
+            rows: reader.records().map(|row| cells(&row.unwrap())).collect(),
+        }
+    }
+
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// The texts of a column.
+    #[track_caller]
+    pub fn cells(&self, column: &str) -> Vec<&str> {
+        let place = self.columns.iter().position(|name| name == column);
+        let place = place.unwrap_or_else(|| panic!("no {column} in {:?}", self.columns));
+        self.rows.iter().map(|row| row[place].as_str()).collect()
+    }
+
+    /// The numbers of a column that has one in each row.
+    #[track_caller]
+    pub fn numbers(&self, column: &str) -> Vec<f64> {
+        let cells = self.cells(column).into_iter();
+        cells.map(|cell| cell.parse().unwrap()).collect()
+    }
+
+    /// The numbers of a column, in an empty cell none.
+    #[track_caller]
+    pub fn found(&self, column: &str) -> Vec<Option<f64>> {
+        let cells = self.cells(column).into_iter();
+        cells.map(|cell| cell.parse().ok()).collect()
+    }
+
+    #[track_caller]
+    pub fn number(&self, row: usize, column: &str) -> f64 {
+        self.cells(column)[row].parse().unwrap()
+    }
 }

@@ -2,10 +2,9 @@
 
 #![cfg(feature = "cli")]
 
-use std::fs;
 use std::sync::atomic::AtomicBool;
 
-use crate::program::{program, write};
+use crate::program::{Place, words};
 use contact_dma::input::diagnostic::Styling;
 use contact_dma::input::document::Document;
 use contact_dma::input::sweep_file;
@@ -16,7 +15,6 @@ use contact_dma::sweep::plan::resolved::resolved_text;
 use contact_dma::sweep::plan::{SweepPlan, Varied};
 use contact_dma::sweep::record::warning::Warning;
 use contact_dma::sweep::record::{CaseRecord, CaseResult};
-use tempfile::TempDir;
 
 /// Two isotherms that no shift brings onto one another, and a sphere.
 const FILE: &str = r#"
@@ -273,30 +271,15 @@ springs = 48
 [sweep]
 angular_frequency = { from = "0.01 rad/s", to = "10 rad/s", points = 13 }
 "#;
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "shifted.toml", text);
+    let place = Place::with("shifted.toml", text);
     let said = |axis: &str| {
-        let output = (program().current_dir(&folder))
-            .args([
-                "sweep",
-                "--no-figures",
-                "--force",
-                "--out",
-                "out",
-                "--set",
-                axis,
-            ])
-            .arg(&file)
-            .output()
-            .unwrap();
-        assert!(output.status.success(), "{output:?}");
-        String::from_utf8(output.stdout).unwrap()
+        let run = format!("sweep shifted.toml --no-figures --force --out out --set '{axis}'");
+        words(&place.done(&run).stdout)
     };
-    let text = said("sweep.material.temperature=['20 °C','25 °C','30 °C']");
+    let text = said("sweep.material.temperature=[\"20 °C\",\"25 °C\",\"30 °C\"]");
     let expected = "; those of 2 other curves are equal to it within their errors";
-    let unwrapped: Vec<&str> = text.split_whitespace().collect();
-    assert!(unwrapped.join(" ").contains(expected), "{text}");
-    let text = said("sweep.drive.amplitude=['0.4 N','0.5 N']");
+    assert!(text.contains(expected), "{text}");
+    let text = said("sweep.drive.amplitude=[\"0.4 N\",\"0.5 N\"]");
     assert!(!text.contains("equal to it"), "{text}");
 }
 
@@ -405,7 +388,6 @@ fn the_cases_over_several_axes_are_all_combinations_or_pairs_of_their_values() {
 
 #[test]
 fn a_sweep_over_several_axes_is_drawn_along_each_and_compared_with_itself() {
-    let folder = TempDir::new().unwrap();
     let text = FILE.replace(
         "[\"0.3 rad/s\", \"3 rad/s\"]",
         "[0.03, 0.1, 0.5, 2, 8, 30, 120, 500, 2000]",
@@ -413,32 +395,28 @@ fn a_sweep_over_several_axes_is_drawn_along_each_and_compared_with_itself() {
     let text = format!(
         "{text}material.temperature = [293.15, 333.15]\ndrive.mean = [1, 2, 3]\n[figures]\nformats = [\"svg\"]\n"
     );
-    let file = write(&folder, "axes.toml", &text);
-    let out = folder.path().join("out");
-    let run = |arguments: &[&str]| {
-        let output = program().args(arguments).assert().success();
-        String::from_utf8(output.get_output().stdout.clone()).unwrap()
-    };
-    let printed = run(&["sweep", &file, "--out", out.to_str().unwrap()]);
+    let place = Place::with("axes.toml", &text);
     // One line per condition.
-    assert!(printed.contains("60 °C, 3 N"), "{printed}");
-    let table = fs::read_to_string(out.join("sweep.csv")).unwrap();
-    let head = table.lines().next().unwrap();
-    assert!(head.contains("material_temperature_k,drive_mean"), "{head}");
-    assert_eq!(table.lines().count(), 1 + 2 * 3 * 9);
+    let run = place.done("sweep axes.toml --out out");
+    run.says(&["60 °C, 3 N"]);
+    let table = place.table("out/sweep.csv");
+    let columns = table.columns.join(",");
+    assert!(
+        columns.contains("material_temperature_k,drive_mean"),
+        "{columns}"
+    );
+    assert_eq!(table.len(), 2 * 3 * 9);
     for name in ["loss-map", "loss-map-2", "energy-loss-2", "peaks-2"] {
-        assert!(out.join(format!("{name}.svg")).exists(), "{name}");
+        assert!(place.has(&format!("out/{name}.svg")), "{name}");
     }
-    let caption = fs::read_to_string(out.join("loss-map-2.caption.txt")).unwrap();
+    let caption = place.text("out/loss-map-2.caption.txt");
     assert!(
         caption.contains("Other axes at temperature of the material"),
         "{caption}"
     );
-    let summary = fs::read(out.join("summary.json")).unwrap();
-    let summary: serde_json::Value = serde_json::from_slice(&summary).unwrap();
+    let summary = place.json("out/summary.json");
     assert_eq!(summary["peaks"][0]["varied"].as_array().unwrap().len(), 2);
-    let same = run(&["compare", out.to_str().unwrap(), out.to_str().unwrap()]);
-    assert!(same.contains("54 cases"), "{same}");
+    place.done("compare out out").says(&["54 cases"]);
 }
 
 /// A solid that was given by two springs and a dashpot, not by the series that it is solved with.

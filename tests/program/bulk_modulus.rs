@@ -1,11 +1,8 @@
-//! `bulk_modulus` in place of `poisson_ratio` in the files: what comes of it, and what is refused.
+//! `bulk_modulus` in place of `poisson_ratio` in the files: what comes of it.
 
 #![cfg(feature = "cli")]
 
-use std::fs;
-
-use crate::program::{program, write};
-use tempfile::TempDir;
+use crate::program::Place;
 
 fn sweep(material: &str) -> String {
     format!(
@@ -20,72 +17,43 @@ fn series(kind: &str) -> String {
     SERIES.replace("KIND", kind)
 }
 
-/// Exit code, and what was told on standard error, on one line.
-fn told(text: &str, command: &str) -> (Option<i32>, String) {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "bulk.toml", text);
-    let mut run = program();
-    run.args(["material", command, &file]);
-    if command == "export" {
-        run.args(["--to", "abaqus"]);
-    }
-    let output = run.output().unwrap();
-    let text = [output.stdout, output.stderr].concat();
-    let words = String::from_utf8_lossy(&text)
-        .split_whitespace()
-        .collect::<Vec<_>>()
-        .join(" ");
-    (output.status.code(), words)
-}
-
 #[test]
 fn a_resolved_sweep_of_either_kind_of_moduli_gives_the_same_losses_again() {
     for kind in ["shear", "longitudinal"] {
-        let folder = TempDir::new().unwrap();
-        let text = sweep(&format!("bulk_modulus = \"3 GPa\"\n{}", series(kind)));
-        let file = write(&folder, "bulk.toml", &text);
-        let run = |file: &str, out: &str| {
-            let out = folder.path().join(out);
-            let mut command = program();
-            command.args(["sweep", file, "--quiet", "--no-figures", "--out"]);
-            command.arg(&out).assert().success();
-            let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
-            (read("sweep.csv"), read("resolved.toml"))
-        };
-        let (table, resolved) = run(&file, "one");
+        let place = Place::new();
+        let table = place.swept(&sweep(&format!(
+            "bulk_modulus = \"3 GPa\"\n{}",
+            series(kind)
+        )));
+        let resolved = place.text("out/resolved.toml");
         assert!(
             resolved.contains("bulk_modulus = \"3000000000 Pa\""),
             "{resolved}"
         );
         assert!(!resolved.contains("poisson_ratio"));
-        let again = write(&folder, "again.toml", &resolved);
-        assert_eq!(run(&again, "two"), (table, resolved));
+        assert_eq!(place.swept(&resolved), table);
+        assert_eq!(place.text("out/resolved.toml"), resolved);
     }
+}
+
+/// A material of a bulk modulus by itself.
+fn material() -> Place {
+    let block = format!(
+        "[material]\nbulk_modulus = \"3 GPa\"\n{}\n",
+        series("shear")
+    );
+    Place::with("bulk.toml", &block)
 }
 
 #[test]
 fn the_material_shows_how_its_poisson_ratio_grows() {
-    let block = format!(
-        "[material]\nbulk_modulus = \"3 GPa\"\n{}\n",
-        series("shear")
-    );
-    let (code, told) = told(&block, "show");
-    assert_eq!(code, Some(0), "{told}");
-    assert!(told.contains("Bulk modulus 3 GPa"), "{told}");
     // (3K - 2G)/(2(3K + G)) of 902 MPa and of 2 MPa.
-    assert!(
-        told.contains(" 0 0.3634") && told.contains("inf 0.4997"),
-        "{told}"
-    );
+    let parts = ["Bulk modulus 3 GPa", " 0 0.3634", "inf 0.4997"];
+    material().done("material show bulk.toml").says(&parts);
 }
 
 #[test]
 fn an_export_that_needs_a_poisson_ratio_says_so() {
-    let block = format!(
-        "[material]\nbulk_modulus = \"3 GPa\"\n{}\n",
-        series("shear")
-    );
-    let (code, told) = told(&block, "export");
-    assert_eq!(code, Some(2), "{told}");
+    let told = material().refused("material export bulk.toml --to abaqus");
     assert!(told.contains("needs a Poisson ratio"), "{told}");
 }

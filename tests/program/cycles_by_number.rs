@@ -2,12 +2,7 @@
 
 #![cfg(feature = "cli")]
 
-use std::fs;
-
-use crate::program::{SVG_ALONE, pmma_sweep, program, write};
-use predicates::str::contains;
-use serde_json::Value;
-use tempfile::TempDir;
+use crate::program::{Place, SVG, pmma_sweep};
 
 const THREE: &str =
     "[sweep]\nangular_frequency = [\"0.004 rad/s\", \"0.02 rad/s\", \"0.1 rad/s\"]\n";
@@ -16,36 +11,28 @@ const SECOND: &str =
 
 #[test]
 fn the_second_cycle_of_every_frequency_is_a_result_and_says_what_it_is() {
-    let folder = TempDir::new().unwrap();
-    let text = pmma_sweep(&format!("{THREE}{SECOND}"))
-        .replace("amplitude = ", "hold = \"50 s\"\namplitude = ");
-    let file = write(&folder, "second.toml", &text);
-    let out = folder.path().join("out");
-    let mut command = program();
-    command.args(["sweep", &file, "--out"]).arg(&out);
-    command
-        .args(SVG_ALONE)
-        .assert()
-        .success()
-        .stdout(contains("transient"));
-    let table = fs::read_to_string(out.join("sweep.csv")).unwrap();
-    assert_eq!(table.matches(",transient,").count(), 3);
-    let summary: Value =
-        serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+    let text = pmma_sweep(&format!("{THREE}{SECOND}"));
+    let text = text.replace("amplitude = ", "hold = \"50 s\"\namplitude = ");
+    let place = Place::with("second.toml", &text);
+    let run = place.done(&format!("sweep second.toml --out out {SVG}"));
+    run.says(&["transient"]);
+    let table = place.table("out/sweep.csv");
+    assert_eq!(table.cells("status"), ["transient"; 3]);
+    let summary = place.json("out/summary.json");
     assert_eq!(summary["cases"]["transient"], 3);
     assert_eq!(summary["cases"]["converged"], 0);
-    let caption = fs::read_to_string(out.join("loops.caption.txt")).unwrap();
-    assert!(caption.contains("Cycle 2 from the beginning"), "{caption}");
-    // The resolved file gives the same plan again.
-    let resolved = fs::read_to_string(out.join("resolved.toml")).unwrap();
-    assert!(resolved.contains("at_cycle = 2"), "{resolved}");
-    let page = fs::read_to_string(out.join("index.html")).unwrap();
-    assert!(page.contains("number 2 after the hold"));
+    for (file, part) in [
+        ("loops.caption.txt", "Cycle 2 from the beginning"),
+        // The resolved file gives the same plan again.
+        ("resolved.toml", "at_cycle = 2"),
+        ("index.html", "number 2 after the hold"),
+    ] {
+        assert!(place.text(&format!("out/{file}")).contains(part), "{file}");
+    }
 }
 
 #[test]
 fn a_history_has_a_table_of_its_cycles() {
-    let folder = TempDir::new().unwrap();
     let segments = r#"
         { kind = "step", to = "10 N", duration = "20 s" },
         { kind = "sine", mean = "10 N", amplitude = "5 N", angular_frequency = "0.5 rad/s", cycles = 3 },
@@ -55,67 +42,32 @@ fn a_history_has_a_table_of_its_cycles() {
         "title = \"cycles\"\n[material]\nlibrary = \"pmma\"\n[indenter]\nshape = \"sphere\"\nradius = \"10 mm\"\n[drive]\ncontrol = \"load\"\n\
          segments = [{segments}\n]\n[solver]\nsprings = 60\n"
     );
-    let out = folder.path().join("out");
-    let simulate = |text: &str, more: &[&str]| {
-        let file = write(&folder, "history.toml", text);
-        let mut command = program();
-        command
-            .args(["simulate", &file, "--out"])
-            .arg(&out)
-            .args(SVG_ALONE);
-        command.args(more).assert().success()
+    let place = Place::new();
+    let simulate = |text: &str, more: &str| {
+        place.put("history.toml", text);
+        let run = format!("simulate history.toml --out out {SVG} {more}");
+        place.done(&run)
     };
-    let assert = simulate(&text, &[]);
-    assert
-        .stdout(contains("Loss in segment 2"))
-        .stdout(contains("  cycle 3: "));
-    let table = fs::read_to_string(out.join("cycles.csv")).unwrap();
-    let column = |name: &str| {
-        table
-            .lines()
-            .next()
-            .unwrap()
-            .split(',')
-            .position(|n| n == name)
-            .unwrap()
-    };
-    let (loss, error) = (column("energy_loss_j"), column("energy_loss_error_j"));
-    let rows: Vec<Vec<&str>> = table
-        .lines()
-        .skip(1)
-        .map(|line| line.split(',').collect())
-        .collect();
-    let numbers: Vec<(&str, &str)> = rows.iter().map(|row| (row[0], row[1])).collect();
-    assert_eq!(
-        numbers,
-        [
-            ("2", "1"),
-            ("2", "2"),
-            ("2", "3"),
-            ("3", "1"),
-            ("3", "2"),
-            ("4", "1")
-        ]
-    );
-    for row in &rows {
-        let (loss, error): (f64, f64) = (row[loss].parse().unwrap(), row[error].parse().unwrap());
-        assert!(loss > 0.0 && error > 0.0 && error < 0.05 * loss, "{row:?}");
+    simulate(&text, "").says(&["Loss in segment 2", " cycle 3: "]);
+    let table = place.table("out/cycles.csv");
+    let numbers: Vec<&str> = table.rows.iter().map(|row| &*row[0]).collect();
+    assert_eq!(numbers, ["2", "2", "2", "3", "3", "4"]);
+    let numbers: Vec<&str> = table.rows.iter().map(|row| &*row[1]).collect();
+    assert_eq!(numbers, ["1", "2", "3", "1", "2", "1"]);
+    let errors = table.numbers("energy_loss_error_j");
+    for (loss, error) in table.numbers("energy_loss_j").iter().zip(errors) {
+        assert!(
+            *loss > 0.0 && error > 0.0 && error < 0.05 * loss,
+            "{loss} {error}"
+        );
     }
-    assert!(out.join("cycle-losses.svg").exists());
-    assert!(
-        fs::read_to_string(out.join("index.html"))
-            .unwrap()
-            .contains("Cycle by cycle")
-    );
-    let printed = simulate(&text, &["--format", "json"])
-        .get_output()
-        .stdout
-        .clone();
-    let json: Value = serde_json::from_slice(&printed).unwrap();
+    assert!(place.has("out/cycle-losses.svg"));
+    assert!(place.text("out/index.html").contains("Cycle by cycle"));
+    let json = simulate(&text, "--format json").json();
     assert_eq!(json["cycles"].as_array().unwrap().len(), 6);
     // A history without a sine takes them away again.
-    simulate(&without_sines(&text), &["--force"]);
-    assert!(!out.join("cycles.csv").exists() && !out.join("cycle-losses.svg").exists());
+    simulate(&without_sines(&text), "--force");
+    assert!(!place.has("out/cycles.csv") && !place.has("out/cycle-losses.svg"));
 }
 
 /// The same history with its sines as steps.

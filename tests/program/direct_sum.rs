@@ -3,13 +3,9 @@
 #![cfg(feature = "cli")]
 
 use std::fs;
-use std::path::Path;
 
-use crate::program::{program, write};
+use crate::program::{Place, words};
 use contact_dma::material::library;
-use predicates::prelude::*;
-use predicates::str::contains;
-use tempfile::TempDir;
 
 /// Creep compliance of PMMA, twenty samples per decade from 0.1 s to 1000 s, off by up to 0.5 % either way.
 fn creep_csv() -> String {
@@ -51,47 +47,31 @@ segments = [
 springs = 200
 "#;
 
-fn folder() -> TempDir {
-    let folder = TempDir::new().unwrap();
-    write(&folder, "creep.csv", &creep_csv());
-    write(&folder, "scenario.toml", SCENARIO);
-    folder
+fn place() -> Place {
+    let place = Place::with("scenario.toml", SCENARIO);
+    place.put("creep.csv", creep_csv());
+    place
 }
 
 /// Runs `simulate`; what it printed.
-fn simulate(folder: &TempDir, file: &str, out: &str, flags: &[&str]) -> String {
-    let mut command = program();
-    command
-        .current_dir(folder.path())
-        .args(["simulate", file, "--out", out]);
-    for flag in flags {
-        command.args(["--set", flag]);
-    }
-    let assert = command.assert().success();
-    String::from_utf8(assert.get_output().stdout.clone()).unwrap()
+fn simulate(place: &Place, file: &str, out: &str, flags: &str) -> String {
+    let run = format!("simulate {file} --out {out} {flags}");
+    place.done(&run).stdout
 }
 
 /// (time, approach, contact radius) at every instant in contact.
-fn history(folder: &TempDir, out: &str) -> Vec<[f64; 3]> {
-    let text = fs::read_to_string(folder.path().join(out).join("history.csv")).unwrap();
-    let cell = |line: &str, k: usize| line.split(',').nth(k).unwrap().parse::<f64>();
-    let rows = text.lines().skip(1);
-    rows.filter_map(|line| {
-        let approach_m = cell(line, 2).ok()?;
-        Some([cell(line, 0).unwrap(), approach_m, cell(line, 3).unwrap()])
-    })
-    .collect()
-}
-
-fn summary(folder: &TempDir, out: &str) -> serde_json::Value {
-    let bytes = fs::read(folder.path().join(out).join("summary.json")).unwrap();
-    serde_json::from_slice(&bytes).unwrap()
+fn history(place: &Place, out: &str) -> Vec<[f64; 3]> {
+    let table = place.table(&format!("{out}/history.csv"));
+    let columns = ["time_s", "approach_m", "contact_radius_m"].map(|name| table.found(name));
+    let rows = (0..table.len()).filter(|row| columns[1][*row].is_some());
+    rows.map(|row| columns.each_ref().map(|column| column[row].unwrap()))
+        .collect()
 }
 
 /// The largest misfit, relative to the data, in what was printed.
 fn reported_misfit(printed: &str) -> f64 {
-    let words = printed.split_whitespace().collect::<Vec<_>>().join(" ");
-    let (_, misfit) = words.split_once("Misfit relative to the data").unwrap();
+    let printed = words(printed);
+    let (_, misfit) = printed.split_once("Misfit relative to the data").unwrap();
     let (before, _) = misfit.split_once("% at most").unwrap();
     0.01 * before
         .split_whitespace()
@@ -101,34 +81,29 @@ fn reported_misfit(printed: &str) -> f64 {
         .unwrap()
 }
 
-const DIRECT: &str = "material.table.evaluation=direct";
+const DIRECT: &str = "--set material.table.evaluation=direct";
 
 #[test]
 fn fit_and_direct_sum_agree_within_what_fit_and_interpolation_leave_open() {
-    let folder = folder();
-    let fitted = simulate(&folder, "scenario.toml", "fit", &["time.step=1 s"]);
+    let place = place();
+    let step = "--set 'time.step=1 s'";
+    let fitted = simulate(&place, "scenario.toml", "fit", step);
     let direct = simulate(
-        &folder,
+        &place,
         "scenario.toml",
         "direct",
-        &["time.step=1 s", DIRECT],
+        &format!("{step} {DIRECT}"),
     );
-    let words = direct.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(
-        words.contains("No fit: 81 samples") && words.contains("by the direct hereditary sum"),
-        "{direct}"
-    );
+    let said = words(&direct);
+    assert!(said.contains("No fit: 81 samples"), "{direct}");
+    assert!(said.contains("by the direct hereditary sum"), "{direct}");
     assert!(direct.lines().all(|line| line.chars().count() <= 80));
     let misfit = reported_misfit(&fitted);
-    assert_eq!(
-        summary(&folder, "fit")["hereditary_integral"],
-        "fitted series"
-    );
-    assert_eq!(
-        summary(&folder, "direct")["hereditary_integral"],
-        "direct sum"
-    );
-    let (a, b) = (history(&folder, "fit"), history(&folder, "direct"));
+    let integral =
+        |out: &str| place.json(&format!("{out}/summary.json"))["hereditary_integral"].take();
+    assert_eq!(integral("fit"), "fitted series");
+    assert_eq!(integral("direct"), "direct sum");
+    let (a, b) = (history(&place, "fit"), history(&place, "direct"));
     assert_eq!(a.len(), b.len());
     let largest = |k: usize| a.iter().map(|row| row[k]).fold(0.0, f64::max);
     let apart = |k: usize, end_s: f64| {
@@ -150,39 +125,32 @@ fn fit_and_direct_sum_agree_within_what_fit_and_interpolation_leave_open() {
 
 #[test]
 fn the_resolved_scenario_shows_the_samples_and_gives_the_same_history_again_without_the_table() {
-    let folder = folder();
-    simulate(&folder, "scenario.toml", "first", &[DIRECT]);
-    fs::remove_file(folder.path().join("creep.csv")).unwrap();
-    let resolved = fs::read_to_string(folder.path().join("first/resolved.toml")).unwrap();
+    let place = place();
+    simulate(&place, "scenario.toml", "first", DIRECT);
+    fs::remove_file(place.path("creep.csv")).unwrap();
+    let resolved = place.text("first/resolved.toml");
     assert!(
         resolved.contains("evaluation = \"direct\"\ntimes = [0.1, "),
         "{resolved}"
     );
-    simulate(&folder, "first/resolved.toml", "second", &[]);
+    simulate(&place, "first/resolved.toml", "second", "");
     for name in ["resolved.toml", "history.csv", "summary.json"] {
-        let read = |out: &str| fs::read_to_string(folder.path().join(out).join(name)).unwrap();
-        assert_eq!(read("first"), read("second"), "{name}");
+        let [first, second] = ["first", "second"].map(|out| place.text(&format!("{out}/{name}")));
+        assert_eq!(first, second, "{name}");
     }
     // The same samples, fitted.
-    let fitted = simulate(
-        &folder,
-        "first/resolved.toml",
-        "third",
-        &["material.table.evaluation=fit"],
-    );
+    let fit = DIRECT.replace("direct", "fit");
+    let fitted = simulate(&place, "first/resolved.toml", "third", &fit);
     assert!(fitted.contains("Fit of 2 branches"), "{fitted}");
 }
 
 #[test]
 fn steps_chosen_by_the_program_are_as_good_with_samples_as_steps_that_are_four_times_shorter() {
-    let folder = folder();
-    for (out, flags) in [
-        ("chosen", vec![DIRECT]),
-        ("short", vec![DIRECT, "time.step=0.25 s"]),
-    ] {
-        simulate(&folder, "scenario.toml", out, &flags);
-    }
-    let (chosen, short) = (history(&folder, "chosen"), history(&folder, "short"));
+    let place = place();
+    simulate(&place, "scenario.toml", "chosen", DIRECT);
+    let short = format!("{DIRECT} --set 'time.step=0.25 s'");
+    simulate(&place, "scenario.toml", "short", &short);
+    let (chosen, short) = (history(&place, "chosen"), history(&place, "short"));
     let largest = short.iter().map(|row| row[1]).fold(0.0, f64::max);
     let mut compared = 0;
     for row in &chosen {
@@ -197,18 +165,13 @@ fn steps_chosen_by_the_program_are_as_good_with_samples_as_steps_that_are_four_t
 
 #[test]
 fn the_half_space_engine_takes_samples_too() {
-    let folder = folder();
-    let short = "drive.segments=[{ kind = \"step\", to = 10, duration = 100 }, { kind = \"ramp\", to = 2, duration = 20 }]";
-    let step = "time.step=5 s";
-    let cells = ["solver.engine=half-space", "solver.cells=32"];
-    simulate(&folder, "scenario.toml", "springs", &[DIRECT, short, step]);
-    simulate(
-        &folder,
-        "scenario.toml",
-        "cells",
-        &[&[DIRECT, short, step], &cells[..]].concat(),
-    );
-    let (a, b) = (history(&folder, "springs"), history(&folder, "cells"));
+    let place = place();
+    let segments = "[{ kind = \"step\", to = 10, duration = 100 }, { kind = \"ramp\", to = 2, duration = 20 }]";
+    let short = format!("{DIRECT} --set 'drive.segments={segments}' --set 'time.step=5 s'");
+    simulate(&place, "scenario.toml", "springs", &short);
+    let cells = format!("{short} --set solver.engine=half-space --set solver.cells=32");
+    simulate(&place, "scenario.toml", "cells", &cells);
+    let (a, b) = (history(&place, "springs"), history(&place, "cells"));
     for (a, b) in a.iter().zip(&b) {
         // 32 cells across: the engines are this far apart on a series as well.
         assert!((a[1] / b[1] - 1.0).abs() < 1e-3, "{a:?} {b:?}");
@@ -217,58 +180,38 @@ fn the_half_space_engine_takes_samples_too() {
 
 #[test]
 fn a_sweep_says_why_it_cannot_take_samples_directly_and_what_to_write() {
-    let folder = folder();
+    let place = place();
     let head = SCENARIO.split("[drive]").next().unwrap();
     let head = head.replace("modulus =", "evaluation = \"direct\"\nmodulus =");
     let rest = "[drive]\nmean = 10\namplitude = 5\n[sweep]\nangular_frequency = [0.01]\n[cycle]\nsteps = 20\n";
-    write(&folder, "sweep.toml", &format!("{head}{rest}"));
-    let assert = program()
-        .current_dir(folder.path())
-        .args(["sweep", "sweep.toml"])
-        .assert()
-        .code(2);
-    let stderr = String::from_utf8(assert.get_output().stderr.clone()).unwrap();
-    let words = stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+    place.put("sweep.toml", format!("{head}{rest}"));
+    let told = place.refused("sweep sweep.toml");
     for part in [
         "sweep.toml:9:14",
         "stabilised cycle is found from the memory variables of a series (Prony form)",
         "evaluation = \"fit\"",
         "contact-dma simulate",
     ] {
-        assert!(words.contains(part), "{part} is missing in:\n{stderr}");
+        assert!(told.contains(part), "{part} is missing in:\n{told}");
     }
     // Looked at, the material is the fit; the sweep itself takes it as well.
-    program()
-        .current_dir(folder.path())
-        .args(["material", "show", "sweep.toml"])
-        .assert()
-        .success()
-        .stdout(contains("Misfit relative to the data"));
-    program()
-        .current_dir(folder.path())
-        .args([
-            "sweep",
-            "sweep.toml",
-            "--set",
-            "material.table.evaluation=fit",
-        ])
-        .assert()
-        .success();
+    let shown = place.done("material show sweep.toml");
+    shown.says(&["Misfit relative to the data"]);
+    place.done("sweep sweep.toml --set material.table.evaluation=fit");
 }
 
 #[test]
 fn a_history_too_long_for_the_direct_sum_is_refused_with_advice() {
-    let folder = folder();
-    program()
-        .current_dir(folder.path())
-        .args(["simulate", "scenario.toml", "--set", DIRECT])
-        .args(["--set", "time.step=5 ms"])
-        .assert()
-        .code(2)
-        .stderr(
-            contains("too many for the direct sum")
-                .and(contains("longer [time] step"))
-                .and(contains("evaluation = \"fit\"")),
-        );
-    assert!(!Path::new(folder.path()).join("reports").exists());
+    let place = place();
+    let told = place.refused(&format!(
+        "simulate scenario.toml {DIRECT} --set 'time.step=5 ms'"
+    ));
+    for part in [
+        "too many for the direct sum",
+        "longer [time] step",
+        "evaluation = \"fit\"",
+    ] {
+        assert!(told.contains(part), "{told}");
+    }
+    assert!(!place.has("reports"));
 }

@@ -5,8 +5,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::program::program;
-use tempfile::TempDir;
+use crate::program::Place;
 
 /// The figures of the paper, with a test of their own.
 const SKIPPED: &str = "spinu-2018";
@@ -59,57 +58,49 @@ fn every_example_opens_with_its_question() {
 
 #[test]
 fn every_example_runs_to_its_end() {
-    let folder = TempDir::new().unwrap();
+    let place = Place::new();
     for path in all() {
         let text = fs::read_to_string(&path).unwrap();
         let command = command(&text);
-        let out = folder.path().join(path.file_stem().unwrap());
+        let out = path.file_stem().unwrap().display();
+        let mut run = format!(
+            "{command} '{}' --quiet --out {out} --set solver.cells=24",
+            path.display()
+        );
         // An identification is coarse by itself, and a periodic surface brings its own cells.
-        let mut coarse = match command {
-            "identify" => Vec::new(),
-            _ => vec!["--set", "solver.springs=100"],
-        };
-        if command == "sweep" {
-            coarse.extend(["--set", "cycle.steps=40"]);
+        for (is_of, set) in [
+            (command != "identify", "solver.springs=100"),
+            (command == "sweep", "cycle.steps=40"),
+            (text.contains("edge = \"periodic\""), "indenter.cells=32"),
+            (
+                text.contains("\nreplicas = "),
+                "material.dynamic.replicas=2",
+            ),
+        ] {
+            if is_of {
+                run += &format!(" --set {set}");
+            }
         }
-        if text.contains("edge = \"periodic\"") {
-            coarse.extend(["--set", "indenter.cells=32"]);
-        }
-        if text.contains("\nreplicas = ") {
-            coarse.extend(["--set", "material.dynamic.replicas=2"]);
-        }
-        program()
-            .arg(command)
-            .arg(&path)
-            .args(["--quiet", "--set", "solver.cells=24"])
-            .args(&coarse)
-            .arg("--out")
-            .arg(&out)
-            .assert()
-            .success()
-            .stdout("")
-            .stderr("");
-        let summary = fs::read(out.join("summary.json")).unwrap();
-        let summary: serde_json::Value = serde_json::from_slice(&summary).unwrap();
-        if command == "simulate" {
-            assert_eq!(summary["status"], "done", "{}", path.display());
-            assert!(out.join("profiles.csv").is_file(), "{}", path.display());
-        } else if command == "identify" {
-            let branches = if path.ends_with("identify-creep.toml") {
-                2
-            } else {
-                3
-            };
-            assert_eq!(summary["branches"], branches, "{}", path.display());
-        } else {
-            assert!(!summary["peaks"].as_array().unwrap().is_empty());
+        let run = place.done(&run);
+        assert_eq!(run.stdout + &run.stderr, "");
+        let summary = place.json(&format!("{out}/summary.json"));
+        match command {
+            "simulate" => {
+                assert_eq!(summary["status"], "done", "{out}");
+                assert!(place.has(&format!("{out}/profiles.csv")), "{out}");
+            }
+            "identify" => {
+                let branches = 3 - usize::from(path.ends_with("identify-creep.toml"));
+                assert_eq!(summary["branches"], branches, "{out}");
+            }
+            _ => assert!(!summary["peaks"].as_array().unwrap().is_empty()),
         }
     }
 }
 
 #[test]
 fn a_file_is_run_by_the_command_it_is_meant_for_and_not_by_the_other() {
-    let folder = TempDir::new().unwrap();
+    let place = Place::new();
     for path in all() {
         let text = fs::read_to_string(&path).unwrap();
         let (other, expected) = match command(&text) {
@@ -118,44 +109,23 @@ fn a_file_is_run_by_the_command_it_is_meant_for_and_not_by_the_other() {
             _ => ("sweep", "run `contact-dma simulate "),
         };
         // The folder holds nothing, so that even a run would leave no trace beside the examples.
-        let assert = program()
-            .current_dir(folder.path())
-            .arg(other)
-            .arg(&path)
-            .assert()
-            .code(2);
-        let stderr = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
-        assert!(stderr.contains(expected), "{stderr}");
+        let told = place.refused(&format!("{other} '{}'", path.display()));
+        assert!(told.contains(expected), "{told}");
     }
 }
 
 #[test]
 fn the_noisy_table_gives_the_loss_of_the_material_it_was_made_from() {
-    let folder = TempDir::new().unwrap();
+    let place = Place::new();
     let sweeps = Path::new(env!("CARGO_MANIFEST_DIR")).join("sweeps");
-    let loss = |name: &str| -> f64 {
-        let out = folder.path().join(name);
-        program()
-            .args([
-                "sweep",
-                "--quiet",
-                "--set",
-                "sweep.angular_frequency=[0.00844]",
-            ])
-            .arg(sweeps.join(format!("{name}.toml")))
-            .arg("--out")
-            .arg(&out)
-            .assert()
-            .success();
-        let table = fs::read_to_string(out.join("sweep.csv")).unwrap();
-        let mut rows = csv::Reader::from_reader(table.as_bytes());
-        let column = rows
-            .headers()
-            .unwrap()
-            .iter()
-            .position(|h| h == "energy_loss_j");
-        let row = rows.records().next().unwrap().unwrap();
-        row[column.unwrap()].parse().unwrap()
+    let loss = |name: &str| {
+        let file = sweeps.join(format!("{name}.toml"));
+        place.done(&format!(
+            "sweep '{}' --quiet --set sweep.angular_frequency=[0.00844] --out {name}",
+            file.display()
+        ));
+        let table = place.table(&format!("{name}/sweep.csv"));
+        table.number(0, "energy_loss_j")
     };
     let off = loss("tabulated-creep") / loss("pmma") - 1.0;
     println!("{off:e}");

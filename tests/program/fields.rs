@@ -2,16 +2,14 @@
 
 #![cfg(feature = "cli")]
 
-use std::fs;
 use std::sync::atomic::AtomicBool;
 
-use crate::program::{program, write};
+use crate::program::{Place, npy};
 use contact_dma::contact::surface::{CellSurface, Surface};
 use contact_dma::input::document::Document;
 use contact_dma::input::scenario_file;
 use contact_dma::reference::elastic::Hertz;
 use contact_dma::simulation::{Simulation, SimulationEnd, SimulationOutcome, SurfaceRecord};
-use tempfile::TempDir;
 
 const ZENER: &str = "title = \"fields\"\n[material]\npoisson_ratio = 0.5\n[material.zener]\nspring = \"1 MPa\"\n\
                      kelvin_spring = \"1 MPa\"\ntime = \"10 s\"\n";
@@ -171,82 +169,40 @@ fn a_field_out_of_contact_is_the_recovering_surface_and_an_infinite_gap_is_one_w
 
 #[test]
 fn the_program_writes_revolved_fields_as_it_does_cells() {
-    let folder = TempDir::new().unwrap();
     let output = "[output]\nfields_at = [\"0 s\", \"30 s\"]\nprofiles_at = [\"30 s\"]\n";
-    let file = write(
-        &folder,
-        "fields.toml",
-        &format!("{ZENER}{SPHERE}{DRIVE}{output}"),
-    );
-    let out = folder.path().join("out");
-    let simulate = |arguments: &[&str]| {
-        program()
-            .args(["simulate", &file, "--quiet", "--force", "--out"])
-            .arg(&out)
-            .args(arguments)
-            .assert()
-            .success();
-    };
-    simulate(&[]);
-    let values = |name: &str| -> Vec<f64> {
-        let bytes = fs::read(out.join(name)).unwrap();
-        let header = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
-        let doubles = bytes[header..].chunks_exact(8);
-        doubles
-            .map(|b| f64::from_le_bytes(b.try_into().unwrap()))
-            .collect()
-    };
+    let place = Place::with("fields.toml", &format!("{ZENER}{SPHERE}{DRIVE}{output}"));
+    let simulate = "simulate fields.toml --quiet --force --out out";
+    place.done(simulate);
     // 128 cells per side unless asked otherwise.
-    let pressure = values("fields/0-pressure_pa.npy");
-    assert_eq!(pressure.len(), 128 * 128);
-    let index = fs::read_to_string(out.join("fields/index.csv")).unwrap();
-    let spacing: f64 = index
-        .lines()
-        .nth(1)
-        .unwrap()
-        .split(',')
-        .nth(7)
-        .unwrap()
-        .parse()
-        .unwrap();
-    let load_n = pressure.iter().sum::<f64>() * spacing * spacing;
+    let pressure = || npy(&place.bytes("out/fields/0-pressure_pa.npy"));
+    assert_eq!(pressure().len(), 128 * 128);
+    let spacing = place.table("out/fields/index.csv").number(0, "spacing_x_m");
+    let load_n = pressure().iter().sum::<f64>() * spacing * spacing;
     // The sum over 116 cells across the contact.
     assert!((load_n - 1.0).abs() < 1e-3, "{load_n}");
-    for name in [
-        "fields/1.vti",
-        "fields/1-gap_m.npy",
-        "fields/1-displacement_m.npy",
-        "pressure-map.svg",
-        "profiles/0.csv",
-    ] {
-        assert!(out.join(name).is_file(), "{name} is missing");
+    for name in
+        "fields/1.vti fields/1-gap_m.npy fields/1-displacement_m.npy pressure-map.svg".split(' ')
+    {
+        assert!(place.has(&format!("out/{name}")), "{name}");
     }
-    let profile = fs::read_to_string(out.join("profiles/0.csv")).unwrap();
+    let profile = place.text("out/profiles/0.csv");
     assert!(
         profile.starts_with("radius_m,"),
         "profiles stay along the radius"
     );
-    let resolved = fs::read_to_string(out.join("resolved.toml")).unwrap();
-    assert!(resolved.contains("field_cells = 128"));
-    simulate(&["--set", "output.field_cells=20"]);
-    assert_eq!(values("fields/0-pressure_pa.npy").len(), 400);
-}
-
-/// Rows of a CSV file as (column name, text).
-fn table(text: &str) -> Vec<std::collections::HashMap<String, String>> {
-    let rows = csv::Reader::from_reader(text.as_bytes());
-    rows.into_deserialize().map(|row| row.unwrap()).collect()
+    assert!(
+        place
+            .text("out/resolved.toml")
+            .contains("field_cells = 128")
+    );
+    place.done(&format!("{simulate} --set output.field_cells=20"));
+    assert_eq!(pressure().len(), 400);
 }
 
 #[test]
 fn profiles_hold_pressure_gap_and_displacement_along_a_radius_or_lines_at_the_times_asked_for() {
-    let folder = TempDir::new().unwrap();
     let output = "[output]\nprofiles_at = [\"20 s\", 0, \"25 s\"]\n";
-    let file = write(
-        &folder,
-        "profiles.toml",
-        &format!("{ZENER}{SPHERE}{DRIVE}{output}"),
-    );
+    let place = Place::with("profiles.toml", &format!("{ZENER}{SPHERE}{DRIVE}{output}"));
     let hertz = Hertz {
         radius_m: 0.01,
         load_n: 1.0,
@@ -258,27 +214,19 @@ fn profiles_hold_pressure_gap_and_displacement_along_a_radius_or_lines_at_the_ti
         ("axisymmetric", "radius_m", 0.02),
         ("half-space", "position_m", 0.1),
     ] {
-        let out = folder.path().join(engine);
-        program()
-            .args(["simulate", &file, "--quiet", "--set", "solver.cells=64"])
-            .args(["--set", &format!("solver.engine={engine}"), "--out"])
-            .arg(&out)
-            .assert()
-            .success();
-        let read =
-            |name: &str| table(&fs::read_to_string(out.join("profiles").join(name)).unwrap());
-        let times: Vec<f64> = read("index.csv")
-            .iter()
-            .map(|r| r["time_s"].parse().unwrap())
-            .collect();
-        assert_eq!(times, [20.0, 0.0, 25.0]);
+        place.done(&format!(
+            "simulate profiles.toml --quiet --set solver.cells=64 --set solver.engine={engine} --out {engine}"
+        ));
+        let read = |name: &str| place.table(&format!("{engine}/profiles/{name}"));
+        let index = read("index.csv");
+        assert_eq!(index.numbers("time_s"), [20.0, 0.0, 25.0]);
         // At the first moment the contact is elastic.
-        let approach_m: f64 = read("index.csv")[1]["approach_m"].parse().unwrap();
+        let approach_m = index.number(1, "approach_m");
         assert!((approach_m / hertz.approach_m() - 1.0).abs() < 1e-3);
         let rows = read("1.csv");
         assert!(rows.len() > 100);
-        for row in &rows {
-            let value = |name: &str| row[name].parse::<f64>().unwrap();
+        for row in 0..rows.len() {
+            let value = |name: &str| rows.number(row, name);
             // Lines of an even grid run half a cell beside the centre: along two rows whose mean is given.
             let r_m = value(column).abs();
             let near_edge = (r_m / hertz.contact_radius_m() - 1.0).abs() < 0.07;
@@ -298,14 +246,12 @@ fn profiles_hold_pressure_gap_and_displacement_along_a_radius_or_lines_at_the_ti
         // Held, the contact has crept; unloading, it presses less.
         let middle = |name: &str| {
             let rows = read(name);
-            let least = |row: &std::collections::HashMap<String, String>| {
-                row[column].parse::<f64>().unwrap().abs()
-            };
-            let row = rows
-                .iter()
-                .min_by(|a, b| least(a).total_cmp(&least(b)))
-                .unwrap();
-            row["displacement_m"].parse::<f64>().unwrap()
+            let places = rows
+                .numbers(column)
+                .into_iter()
+                .zip(rows.numbers("displacement_m"));
+            let nearest = places.min_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+            nearest.unwrap().1
         };
         assert!(middle("0.csv") > 1.3 * middle("1.csv") && middle("2.csv") < middle("0.csv"));
     }

@@ -4,12 +4,9 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use crate::program::{pmma_sweep, program, write};
-use predicates::prelude::*;
-use predicates::str::contains;
-use tempfile::TempDir;
+use crate::program::{Place, pmma_sweep};
 
 /// Three cases of a few milliseconds, with figures as SVG alone.
 const SWEEP: &str = r#"[sweep]
@@ -65,54 +62,26 @@ springs = 24
 "#;
 
 /// A folder with the inputs of every command, and a finished sweep in `swept`.
-struct Place(TempDir);
-
-impl Place {
-    fn new() -> Self {
-        let folder = TempDir::new().unwrap();
-        let place = Self(folder);
-        place.put("small.toml", &pmma_sweep(SWEEP));
-        place.put("step.toml", SCENARIO);
-        place.put("creep.csv", CREEP);
-        place.put("identify.toml", IDENTIFY);
-        let record = |k: usize| {
-            let row = |i: usize| {
-                let (t, w) = (0.05 * i as f64, 2.0 + k as f64);
-                let (load, depth) = ((w * t).sin(), (w * t - 0.1).sin());
-                format!("{t},{},{}\n", 10.0 + 5.0 * load, 2e-5 + 4e-6 * depth)
-            };
-            let rows: String = (0..400).map(row).collect();
-            format!("time_s,load_n,approach_m\n{rows}")
+fn inputs() -> Place {
+    let place = Place::with("small.toml", &pmma_sweep(SWEEP));
+    place.put("step.toml", SCENARIO);
+    place.put("creep.csv", CREEP);
+    place.put("identify.toml", IDENTIFY);
+    for k in 0..2 {
+        let row = |i: usize| {
+            let (t, w) = (0.05 * i as f64, 2.0 + k as f64);
+            let (load, depth) = ((w * t).sin(), (w * t - 0.1).sin());
+            format!("{t},{},{}\n", 10.0 + 5.0 * load, 2e-5 + 4e-6 * depth)
         };
-        for k in 0..2 {
-            place.put(&format!("raw/{k}.csv"), &record(k));
-        }
-        place.ends(
-            &["sweep", "small.toml", "--out", "swept", "--no-figures"],
-            0,
+        let rows: String = (0..400).map(row).collect();
+        place.put(
+            &format!("raw/{k}.csv"),
+            format!("time_s,load_n,approach_m\n{rows}"),
         );
-        let table = fs::read_to_string(place.path("swept/sweep.csv")).unwrap();
-        place.put("cycles.csv", &table);
-        place
     }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn put(&self, name: &str, text: &str) {
-        write(&self.0, name, text);
-    }
-
-    /// Runs the program here and expects this exit code; what it said on standard error.
-    fn ends(&self, arguments: &[&str], code: i32) -> String {
-        let mut command = program();
-        command.current_dir(self.0.path()).args(arguments);
-        let output = command.output().unwrap();
-        let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert_eq!(output.status.code(), Some(code), "{arguments:?}: {stderr}");
-        stderr
-    }
+    place.done("sweep small.toml --out swept --no-figures");
+    place.put("cycles.csv", place.text("swept/sweep.csv"));
+    place
 }
 
 /// Every file below a folder with its bytes, but for what the program keeps for itself.
@@ -135,39 +104,31 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 
 /// The files that `run.json` says the program has written.
 fn listed(folder: &Path) -> Vec<String> {
-    let run: serde_json::Value =
-        serde_json::from_slice(&fs::read(folder.join("run.json")).unwrap()).unwrap();
+    let run = fs::read(folder.join("run.json")).unwrap();
+    let run: serde_json::Value = serde_json::from_slice(&run).unwrap();
     let files = run["files"].as_array().unwrap().iter();
     files
         .map(|name| name.as_str().unwrap().to_owned())
         .collect()
 }
 
+const FIT: &str = "--quantity creep --modulus longitudinal --poisson-ratio 0.4";
+
 /// Every command that writes a folder, without the folder.
-const COMMANDS: [&[&str]; 9] = [
-    &["sweep", "small.toml"],
-    &["simulate", "step.toml"],
-    &["merge", "swept"],
-    &["report", "swept"],
-    &["analyse", "raw/0.csv", "raw/1.csv"],
-    &["identify", "identify.toml"],
-    &["material", "show", "pmma"],
-    &[
-        "material",
-        "fit",
-        "creep.csv",
-        "--quantity",
-        "creep",
-        "--modulus",
-        "longitudinal",
-        "--poisson-ratio",
-        "0.4",
-    ],
-    &["compare", "swept", "swept"],
+const COMMANDS: [&str; 9] = [
+    "sweep small.toml",
+    "simulate step.toml",
+    "merge swept",
+    "report swept",
+    "analyse raw/0.csv raw/1.csv",
+    "identify identify.toml",
+    "material show pmma",
+    "material fit creep.csv --quantity creep --modulus longitudinal --poisson-ratio 0.4",
+    "compare swept swept",
 ];
 
-fn into<'a>(command: &[&'a str], out: &'a str, more: &[&'a str]) -> Vec<&'a str> {
-    [command, &["--out", out], more].concat()
+fn into(command: &str, out: &str, more: &str) -> String {
+    format!("{command} --out {out} {more}")
 }
 
 /// Files of a user, in every folder that the program uses, under names that it uses and under others.
@@ -188,22 +149,22 @@ const FOREIGN: [&str; 12] = [
 
 #[test]
 fn a_folder_of_somebody_else_is_refused_and_with_force_added_to_and_left_as_it_was() {
-    let place = Place::new();
+    let place = inputs();
     for (k, command) in COMMANDS.iter().enumerate() {
         let out = format!("theirs-{k}");
         for name in FOREIGN {
             place.put(&format!("{out}/{name}"), name);
         }
         let before = files(&place.path(&out));
-        let refusal = place.ends(&into(command, &out, &[]), 2);
+        let refusal = place.ends(&into(command, &out, ""), 2);
         assert!(
             refusal.contains("has not written") && refusal.contains("--force"),
             "{refusal}"
         );
         assert_eq!(files(&place.path(&out)), before, "{command:?}");
         // Twice: the second finds its own list beside them.
-        place.ends(&into(command, &out, &["--force"]), 0);
-        place.ends(&into(command, &out, &[]), 0);
+        place.ends(&into(command, &out, "--force"), 0);
+        place.ends(&into(command, &out, ""), 0);
         let after = files(&place.path(&out));
         for (name, bytes) in &before {
             assert_eq!(after.get(name), Some(bytes), "{command:?}: {name}");
@@ -220,12 +181,12 @@ fn a_folder_of_somebody_else_is_refused_and_with_force_added_to_and_left_as_it_w
 
 #[test]
 fn files_of_somebody_else_with_the_names_of_results_are_refused_even_with_force() {
-    let place = Place::new();
+    let place = inputs();
     for (k, command) in COMMANDS.iter().enumerate() {
         for name in ["index.html", "run.json"] {
             let out = format!("{k}-{name}");
             place.put(&format!("{out}/{name}"), "{ \"mine\": 1 }");
-            let refusal = place.ends(&into(command, &out, &["--force"]), 2);
+            let refusal = place.ends(&into(command, &out, "--force"), 2);
             assert!(refusal.contains(name), "{refusal}");
             let after = files(&place.path(&out));
             assert_eq!(after.len(), 1, "{command:?}: {:?}", after.keys());
@@ -241,7 +202,7 @@ fn files_of_somebody_else_with_the_names_of_results_are_refused_even_with_force(
     ] {
         let out = name.replace('/', "-");
         place.put(&format!("{out}/{name}"), "mine");
-        let refusal = place.ends(&into(COMMANDS[0], &out, &["--force"]), 2);
+        let refusal = place.ends(&into(COMMANDS[0], &out, "--force"), 2);
         assert!(refusal.contains(name), "{refusal}");
         assert_eq!(files(&place.path(&out)).len(), 1);
     }
@@ -249,9 +210,9 @@ fn files_of_somebody_else_with_the_names_of_results_are_refused_even_with_force(
 
 #[test]
 fn a_folder_belongs_to_one_command_and_another_one_is_refused() {
-    let place = Place::new();
+    let place = inputs();
     for (k, command) in COMMANDS.iter().enumerate() {
-        place.ends(&into(command, &format!("own-{k}"), &[]), 0);
+        place.ends(&into(command, &format!("own-{k}"), ""), 0);
     }
     for (k, command) in COMMANDS.iter().enumerate() {
         for other in 0..COMMANDS.len() {
@@ -262,7 +223,7 @@ fn a_folder_belongs_to_one_command_and_another_one_is_refused() {
             }
             let out = format!("own-{other}");
             let before = files(&place.path(&out));
-            let refusal = place.ends(&into(command, &out, &[]), 2);
+            let refusal = place.ends(&into(command, &out, ""), 2);
             assert!(
                 refusal.contains(&out) && refusal.contains("--force"),
                 "{refusal}"
@@ -273,7 +234,7 @@ fn a_folder_belongs_to_one_command_and_another_one_is_refused() {
     // Forced, one takes the place of the other, of which nothing is left but what is somebody else's.
     for (k, out) in [(5, "own-0"), (0, "own-4"), (6, "own-7"), (8, "own-1")] {
         place.put(&format!("{out}/work/notes.txt"), "mine");
-        place.ends(&into(COMMANDS[k], out, &["--force"]), 0);
+        place.ends(&into(COMMANDS[k], out, "--force"), 0);
         let mut left = files(&place.path(out));
         assert_eq!(left.remove("work/notes.txt").unwrap(), b"mine");
         assert_eq!(
@@ -285,16 +246,13 @@ fn a_folder_belongs_to_one_command_and_another_one_is_refused() {
 
 #[test]
 fn the_default_folder_of_two_files_of_one_name_is_given_to_one_of_them() {
-    let place = Place::new();
-    place.put("a/polymer.toml", &pmma_sweep(SWEEP));
+    let place = inputs();
+    place.put("a/polymer.toml", pmma_sweep(SWEEP));
     place.put("b/polymer.toml", IDENTIFY);
-    place.put(
-        "b/cycles.csv",
-        &fs::read_to_string(place.path("cycles.csv")).unwrap(),
-    );
-    place.ends(&["sweep", "a/polymer.toml"], 0);
+    place.put("b/cycles.csv", place.text("cycles.csv"));
+    place.ends("sweep a/polymer.toml", 0);
     let before = files(&place.path("reports/polymer"));
-    let refusal = place.ends(&["identify", "b/polymer.toml"], 2);
+    let refusal = place.ends("identify b/polymer.toml", 2);
     for part in ["reports/polymer", "a sweep", "an identification", "--out"] {
         assert!(refusal.contains(part), "{refusal}");
     }
@@ -303,55 +261,43 @@ fn the_default_folder_of_two_files_of_one_name_is_given_to_one_of_them() {
 
 #[test]
 fn no_command_writes_over_a_file_that_it_reads() {
-    let place = Place::new();
-    let raw = fs::read_to_string(place.path("raw/0.csv")).unwrap();
-    let fit = [
-        "--quantity",
-        "creep",
-        "--modulus",
-        "longitudinal",
-        "--poisson-ratio",
-        "0.4",
-    ];
+    let place = inputs();
+    let raw = place.text("raw/0.csv");
     let identify = IDENTIFY.replace("cycles.csv", "fit.csv");
-    let table = fs::read_to_string(place.path("cycles.csv")).unwrap();
+    let table = place.text("cycles.csv");
     let sweep = pmma_sweep(SWEEP).replace(
         "library = \"pmma\"",
         "poisson_ratio = 0.3\n[material.table]\nfile = \"loops.csv\"\nquantity = \"creep\"\nmodulus = \"longitudinal\"",
     );
     let plan = pmma_sweep(SWEEP);
+    let fit = &format!("material fit fit.csv {FIT}");
     /// A folder, its files with their texts, the one that is read, the command.
-    type Case<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a str, Vec<&'a str>);
+    type Case<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a str, &'a str);
     let cases: [Case<'_>; 5] = [
         (
             "a",
             &[("loops/0.csv", &raw)],
             "loops/0.csv",
-            vec!["analyse", "loops/0.csv"],
+            "analyse loops/0.csv",
         ),
-        (
-            "b",
-            &[("fit.csv", CREEP)],
-            "fit.csv",
-            [&["material", "fit", "fit.csv"], &fit[..]].concat(),
-        ),
+        ("b", &[("fit.csv", CREEP)], "fit.csv", fit),
         (
             "c",
             &[("fit.csv", &table), ("id.toml", &identify)],
             "fit.csv",
-            vec!["identify", "id.toml"],
+            "identify id.toml",
         ),
         (
             "d",
             &[("loops.csv", CREEP), ("s.toml", &sweep)],
             "loops.csv",
-            vec!["sweep", "s.toml"],
+            "sweep s.toml",
         ),
         (
             "e",
             &[("resolved.toml", &plan)],
             "resolved.toml",
-            vec!["sweep", "resolved.toml"],
+            "sweep resolved.toml",
         ),
     ];
     for (folder, inputs, named, command) in cases {
@@ -359,46 +305,33 @@ fn no_command_writes_over_a_file_that_it_reads() {
             place.put(&format!("{folder}/{name}"), text);
         }
         let before = files(&place.path(folder));
-        for more in [&[][..], &["--force"]] {
-            let mut run = program();
-            run.current_dir(place.path(folder));
-            let assert = run.args(into(&command, ".", more)).assert().code(2);
-            let said = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+        for more in ["", "--force"] {
+            let run = place.run_at(folder, &into(command, ".", more)).ended(2);
             // Both names: what is read, and what would be written over it.
-            let is_named = said.matches(named).count() == 2 && said.contains("is read");
-            assert!(more.is_empty() || is_named, "{said}");
+            let is_named = run.stderr.matches(named).count() == 2 && run.stderr.contains("is read");
+            assert!(more.is_empty() || is_named, "{run:?}");
             assert_eq!(files(&place.path(folder)), before, "{command:?} {more:?}");
         }
     }
     // In a folder of its own too: the table that an earlier fit has written.
-    let fitted = [
-        &["material", "fit", "creep.csv"],
-        &fit[..],
-        &["--out", "fitted"],
-    ]
-    .concat();
-    place.ends(&fitted, 0);
-    let again = fs::read_to_string(place.path("creep.csv")).unwrap();
-    place.put("fitted/fit.csv", &again);
+    place.done(&format!("material fit creep.csv {FIT} --out fitted"));
+    place.put("fitted/fit.csv", CREEP);
     let before = files(&place.path("fitted"));
-    let again = [
-        &["material", "fit", "fitted/fit.csv"],
-        &fit[..],
-        &["--out", "fitted"],
-    ]
-    .concat();
-    place.ends(&again, 2);
+    place.ends(
+        &format!("material fit fitted/fit.csv {FIT} --out fitted"),
+        2,
+    );
     assert_eq!(files(&place.path("fitted")), before);
 }
 
 #[test]
 fn what_an_earlier_run_showed_and_this_one_does_not_is_removed() {
-    let place = Place::new();
+    let place = inputs();
     let own = |name: &str| place.path("own").join(name);
-    place.ends(&["sweep", "small.toml", "--out", "own"], 0);
+    place.ends("sweep small.toml --out own", 0);
     place.put("own/work/notes.txt", "mine");
     assert!(own("loops.svg").exists());
-    place.ends(&["report", "own", "--no-figures"], 0);
+    place.ends("report own --no-figures", 0);
     assert!(!own("loops.svg").exists() && !own("index.html").exists());
     assert!(own("loops/0.csv").exists() && own("work/notes.txt").exists());
     // Of a listed file that no report writes any more, as those of cases that a partial report has chosen.
@@ -407,7 +340,7 @@ fn what_an_earlier_run_showed_and_this_one_does_not_is_removed() {
     fs::write(own("run.json"), run).unwrap();
     fs::write(own("loops/202.csv"), "").unwrap();
     fs::write(own("loops/203.csv"), "mine").unwrap();
-    place.ends(&["report", "own"], 0);
+    place.ends("report own", 0);
     assert!(!own("loops/202.csv").exists() && own("loops/203.csv").exists());
     // Another fit in the same folder.
     let dynamic = "Temperature (°C),Frequency (Hz),E' (MPa),E'' (MPa)\n";
@@ -422,33 +355,14 @@ fn what_an_earlier_run_showed_and_this_one_does_not_is_removed() {
             )
         })
         .collect();
-    place.put("dynamic.csv", &format!("{dynamic}{rows}"));
-    let fit = [
-        "--modulus",
-        "longitudinal",
-        "--poisson-ratio",
-        "0.4",
-        "--out",
-        "fits",
-    ];
-    place.ends(
-        &[
-            &["material", "fit", "dynamic.csv", "--quantity", "dynamic"],
-            &fit[..],
-        ]
-        .concat(),
-        0,
-    );
+    place.put("dynamic.csv", format!("{dynamic}{rows}"));
+    let fit = "--modulus longitudinal --poisson-ratio 0.4 --out fits";
+    place.done(&format!(
+        "material fit dynamic.csv --quantity dynamic {fit}"
+    ));
     let first = files(&place.path("fits"));
     assert!(first.contains_key("summary.json"));
-    place.ends(
-        &[
-            &["material", "fit", "creep.csv", "--quantity", "creep"],
-            &fit[..],
-        ]
-        .concat(),
-        0,
-    );
+    place.done(&format!("material fit creep.csv --quantity creep {fit}"));
     let second = files(&place.path("fits"));
     assert!(!second.contains_key("summary.json"));
     assert_eq!(
@@ -459,34 +373,23 @@ fn what_an_earlier_run_showed_and_this_one_does_not_is_removed() {
 
 #[test]
 fn names_in_a_list_do_not_reach_out_of_the_folder() {
-    let place = Place::new();
-    place.ends(&["sweep", "small.toml", "--out", "own", "--no-figures"], 0);
+    let place = inputs();
+    place.ends("sweep small.toml --out own --no-figures", 0);
     place.put("mine.txt", "mine");
     let run = place.path("own/run.json");
     let outside = place.path("mine.txt").to_str().unwrap().to_owned();
     let text = fs::read_to_string(&run).unwrap();
     let files = format!("\"files\": [\n    \"../mine.txt\",\n    \"{outside}\",");
     fs::write(&run, text.replace("\"files\": [", &files)).unwrap();
-    place.ends(
-        &[
-            "sweep",
-            "small.toml",
-            "--out",
-            "own",
-            "--set",
-            "cycle.steps=32",
-            "--force",
-        ],
-        0,
-    );
+    place.ends("sweep small.toml --out own --set cycle.steps=32 --force", 0);
     assert!(place.path("mine.txt").exists());
 }
 
 /// Folders of versions that listed nothing.
 #[test]
 fn a_folder_without_a_list_is_known_by_its_records_and_its_summary() {
-    let place = Place::new();
-    place.ends(&["sweep", "small.toml", "--out", "own"], 0);
+    let place = inputs();
+    place.ends("sweep small.toml --out own", 0);
     let whole = files(&place.path("own"));
     let unlist = |all: bool| {
         let names: &[&str] = match all {
@@ -500,9 +403,9 @@ fn a_folder_without_a_list_is_known_by_its_records_and_its_summary() {
     for all in [false, true] {
         unlist(all);
         place.put("own/notes.txt", "mine");
-        place.ends(&["sweep", "small.toml", "--out", "own"], 0);
+        place.ends("sweep small.toml --out own", 0);
         unlist(all);
-        place.ends(&["report", "own"], 0);
+        place.ends("report own", 0);
         let mut found = files(&place.path("own"));
         assert_eq!(found.remove("notes.txt").unwrap(), b"mine");
         for (name, bytes) in &whole {
@@ -513,27 +416,16 @@ fn a_folder_without_a_list_is_known_by_its_records_and_its_summary() {
         }
         assert_eq!(found.len(), whole.len());
         unlist(all);
-        place.ends(&into(COMMANDS[5], "own", &[]), 2);
+        place.ends(&into(COMMANDS[5], "own", ""), 2);
     }
-    place.ends(
-        &[
-            "sweep",
-            "small.toml",
-            "--out",
-            "own",
-            "--set",
-            "cycle.steps=32",
-            "--force",
-        ],
-        0,
-    );
+    place.ends("sweep small.toml --out own --set cycle.steps=32 --force", 0);
     assert!(place.path("own/notes.txt").exists());
 }
 
 #[test]
 fn a_damaged_plan_is_written_anew_where_its_records_are_there() {
-    let place = Place::new();
-    place.ends(&["sweep", "small.toml", "--out", "own", "--no-figures"], 0);
+    let place = inputs();
+    place.ends("sweep small.toml --out own --no-figures", 0);
     let plan = place.path("own/resolved.toml");
     let whole = fs::read(&plan).unwrap();
     let records = || files(&place.path("own/records"));
@@ -545,32 +437,15 @@ fn a_damaged_plan_is_written_anew_where_its_records_are_there() {
             None => bytes.clear(),
         }
         fs::write(&plan, bytes).unwrap();
-        for more in [&[][..], &["--force"]] {
-            let said = place.ends(
-                &[
-                    &["sweep", "small.toml", "--out", "own", "--no-figures"],
-                    more,
-                ]
-                .concat(),
-                0,
-            );
+        for more in ["", "--force"] {
+            let said = place.ends(&into("sweep small.toml --no-figures", "own", more), 0);
             assert!(said.contains("3 of 3 cases were already done"), "{said}");
             assert_eq!(fs::read(&plan).unwrap(), whole);
             assert_eq!(records(), before);
         }
     }
     // Of another sweep it stays, and so do its records.
-    let said = place.ends(
-        &[
-            "sweep",
-            "small.toml",
-            "--out",
-            "own",
-            "--set",
-            "cycle.steps=32",
-        ],
-        2,
-    );
+    let said = place.ends("sweep small.toml --out own --set cycle.steps=32", 2);
     assert!(
         said.contains("holds results of a different sweep"),
         "{said}"
@@ -580,7 +455,7 @@ fn a_damaged_plan_is_written_anew_where_its_records_are_there() {
 
 #[test]
 fn half_written_files_of_killed_commands_are_removed_by_the_next_one() {
-    let place = Place::new();
+    let place = inputs();
     let host = fs::read_to_string("/proc/sys/kernel/hostname").unwrap();
     let half = format!(".contact-dma-{}~left", host.trim());
     for (k, command) in COMMANDS
@@ -589,11 +464,11 @@ fn half_written_files_of_killed_commands_are_removed_by_the_next_one() {
         .filter(|(k, _)| [0, 4, 7].contains(k))
     {
         let out = format!("own-{k}");
-        let again: Vec<&str> = match k {
-            0 => vec!["report", &out],
-            _ => into(command, &out, &[]),
+        let again = match k {
+            0 => format!("report {out}"),
+            _ => into(command, &out, ""),
         };
-        place.ends(&into(command, &out, &[]), 0);
+        place.ends(&into(command, &out, ""), 0);
         place.put(&format!("{out}/{half}"), "half");
         place.ends(&again, 0);
         assert!(!place.path(&out).join(&half).exists(), "{command:?}");
@@ -602,8 +477,8 @@ fn half_written_files_of_killed_commands_are_removed_by_the_next_one() {
 
 #[test]
 fn nothing_is_written_into_a_folder_in_which_a_sweep_runs() {
-    let place = Place::new();
-    place.ends(&["sweep", "small.toml", "--out", "own", "--no-figures"], 0);
+    let place = inputs();
+    place.ends("sweep small.toml --out own --no-figures", 0);
     // As a running process has it.
     let lock = fs::File::options()
         .read(true)
@@ -613,7 +488,7 @@ fn nothing_is_written_into_a_folder_in_which_a_sweep_runs() {
     lock.lock_shared().unwrap();
     let before = files(&place.path("own"));
     for k in [4, 5, 7, 8] {
-        place.ends(&into(COMMANDS[k], "own", &["--force"]), 2);
+        place.ends(&into(COMMANDS[k], "own", "--force"), 2);
         assert_eq!(files(&place.path("own")), before, "{:?}", COMMANDS[k]);
     }
 }
@@ -621,54 +496,39 @@ fn nothing_is_written_into_a_folder_in_which_a_sweep_runs() {
 #[cfg(unix)]
 #[test]
 fn an_export_is_written_to_what_is_there() {
-    let place = Place::new();
-    let export = |out: &str, more: &[&str]| {
-        let mut command = program();
-        command.current_dir(place.0.path());
-        let asked = ["material", "export", "pmma", "--to", "abaqus", "--out", out];
-        command.args(asked).args(more).assert()
-    };
-    export("a.inp", &[]).success();
-    let text = fs::read_to_string(place.path("a.inp")).unwrap();
+    let place = inputs();
+    let export = |rest: &str| place.run(&format!("material export pmma --to abaqus --out {rest}"));
+    export("a.inp").ended(0);
+    let text = place.text("a.inp");
     // Its own file it replaces, one of somebody else it does not.
-    export("a.inp", &[]).success();
+    export("a.inp").ended(0);
     place.put("mine.inp", "mine");
-    export("mine.inp", &[])
-        .code(2)
-        .stderr(contains("mine.inp").and(contains("--force")));
-    assert_eq!(fs::read_to_string(place.path("mine.inp")).unwrap(), "mine");
-    export("mine.inp", &["--force"]).success();
-    assert_eq!(fs::read_to_string(place.path("mine.inp")).unwrap(), text);
+    let told = export("mine.inp").ended(2).stderr;
+    assert!(
+        told.contains("mine.inp") && told.contains("--force"),
+        "{told}"
+    );
+    assert_eq!(place.text("mine.inp"), "mine");
+    export("mine.inp --force").ended(0);
+    assert_eq!(place.text("mine.inp"), text);
     // A link stays one, and what it names is written.
     for (link, target) in [("to-a.inp", "a.inp"), ("to-new.inp", "new.inp")] {
         std::os::unix::fs::symlink(place.path(target), place.path(link)).unwrap();
-        export(link, &[]).success();
+        export(link).ended(0);
         assert!(place.path(link).is_symlink());
-        assert_eq!(fs::read_to_string(place.path(target)).unwrap(), text);
+        assert_eq!(place.text(target), text);
     }
     // A device is written to.
-    let printed = export("/dev/stdout", &["--format", "json"]).success();
-    let printed = String::from_utf8_lossy(&printed.get_output().stdout).into_owned();
+    let printed = export("/dev/stdout --format json").ended(0).stdout;
     assert!(printed.starts_with(&text), "{printed}");
     place.put("pmma.toml", "[material]\nlibrary = \"pmma\"\n");
-    let mut own = program();
-    own.current_dir(place.0.path());
-    own.args([
-        "material",
-        "export",
-        "pmma.toml",
-        "--to",
-        "abaqus",
-        "--out",
-        "pmma.toml",
-        "--force",
-    ]);
-    own.assert().code(2).stderr(contains("is read"));
+    let own = "material export pmma.toml --to abaqus --out pmma.toml --force";
+    assert!(place.ends(own, 2).contains("is read"));
 }
 
 #[test]
 fn report_names_the_command_that_makes_the_figures_of_a_folder_that_it_cannot_draw() {
-    let place = Place::new();
+    let place = inputs();
     for (k, command, holds, again) in [
         (
             1,
@@ -702,61 +562,41 @@ fn report_names_the_command_that_makes_the_figures_of_a_folder_that_it_cannot_dr
         ),
     ] {
         let out = format!("out-{k}");
-        assert!(COMMANDS[k].contains(&command));
-        place.ends(&into(COMMANDS[k], &out, &[]), 0);
+        assert!(COMMANDS[k].contains(command));
+        place.ends(&into(COMMANDS[k], &out, ""), 0);
         let before = files(&place.path(&out));
-        let said = place.ends(&["report", &out, "--set", "figures.column=one"], 2);
+        let said = place.ends(&format!("report {out} --set figures.column=one"), 2);
         assert!(
             said.contains(&format!("{out} holds {holds}")) && said.contains(again),
             "{said}"
         );
         assert!(!said.contains("missing"), "{said}");
         for other in [
-            &["compare", &out, "swept"][..],
-            &["merge", &out, "--out", "whole"],
+            format!("compare {out} swept"),
+            format!("merge {out} --out whole"),
         ] {
-            let said = place.ends(other, 2);
+            let said = place.ends(&other, 2);
             assert!(said.contains(&format!("{out} holds {holds}")), "{said}");
         }
         assert_eq!(files(&place.path(&out)), before, "{command}");
     }
     // What is named for a history does what was asked.
-    let again = [
-        "simulate",
-        "out-1/resolved.toml",
-        "--out",
-        "out-1",
-        "--set",
-        "figures.column=one",
-    ];
-    place.ends(&again, 0);
-    let picture = fs::read_to_string(place.path("out-1/history.svg")).unwrap();
+    place.done("simulate out-1/resolved.toml --out out-1 --set figures.column=one");
+    let picture = place.text("out-1/history.svg");
     assert!(picture.contains("85mm"), "{}", &picture[..300]);
     // An analysis is drawn.
-    place.ends(&into(COMMANDS[4], "measured", &[]), 0);
-    place.ends(&["report", "measured"], 0);
+    place.ends(&into(COMMANDS[4], "measured", ""), 0);
+    place.ends("report measured", 0);
 }
 
 #[test]
 fn a_title_that_is_the_name_of_the_folder_is_no_file_that_is_read() {
-    let folder = TempDir::new().unwrap();
     let sweep = pmma_sweep(SWEEP).replacen("title = \"", "title = \"found\" # \"", 1);
     assert!(sweep.contains("title = \"found\""), "{sweep}");
-    write(&folder, "small.toml", &sweep);
+    let place = Place::with("small.toml", &sweep);
     for loads in ["10 N", "12 N"] {
-        let set = format!("drive.mean={loads}");
-        let mut command = program();
-        command.current_dir(folder.path()).args([
-            "sweep",
-            "small.toml",
-            "--out",
-            "found",
-            "--force",
-            "--quiet",
-            "--no-figures",
-            "--set",
-            &set,
-        ]);
-        command.assert().success();
+        place.done(&format!(
+            "sweep small.toml --out found --force --quiet --no-figures --set 'drive.mean={loads}'"
+        ));
     }
 }

@@ -5,8 +5,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::program::{pmma_sweep, program, write};
-use tempfile::TempDir;
+use crate::program::{Place, pmma_sweep};
 
 /// 11 curves of 20 cases, as coarse as they may be.
 const LARGE: &str = r#"[sweep]
@@ -43,18 +42,8 @@ fn array(bytes: &[u8], name: &str) -> (Vec<usize>, Vec<f64>) {
     (sides.collect(), values.collect())
 }
 
-fn column(out: &Path, name: &str) -> Vec<f64> {
-    let mut reader = csv::Reader::from_path(out.join("sweep.csv")).unwrap();
-    let place = reader.headers().unwrap().iter().position(|c| c == name);
-    let place = place.unwrap();
-    let rows = reader.records();
-    rows.map(|row| row.unwrap()[place].parse().unwrap())
-        .collect()
-}
-
 #[test]
 fn profiles_of_cases_on_different_grids_are_padded_each_by_itself() {
-    let folder = TempDir::new().unwrap();
     // Two summits in a row along x, and in one along y: on many cells along x, and on few.
     let summits = |name: &str, [first, second]: [&str; 2]| {
         format!(
@@ -74,12 +63,9 @@ fn profiles_of_cases_on_different_grids_are_padded_each_by_itself() {
             ["[\"-0.2 mm\", \"0 m\"]", "[\"0.2 mm\", \"0 m\"]"]
         ),
     );
-    let file = write(&folder, "rows.toml", &text);
-    let out = folder.path().join("out");
-    let mut command = program();
-    command.args(["sweep", &file, "--quiet", "--no-figures", "--out"]);
-    command.arg(&out).assert().success();
-    let bytes = fs::read(out.join("cycles.npz")).unwrap();
+    let place = Place::new();
+    place.swept(&text);
+    let bytes = place.bytes("out/cycles.npz");
     let (shape, pressures) = array(&bytes, "profile_pressure_pa");
     assert_eq!(shape, [2, 4, 32]);
     let (shape, times) = array(&bytes, "profile_time_s");
@@ -105,64 +91,53 @@ fn profiles_of_cases_on_different_grids_are_padded_each_by_itself() {
 
 #[test]
 fn page_and_pictures_stay_small_where_the_curves_have_many_cases() {
-    let folder = TempDir::new().unwrap();
     let many = LARGE
         .replace("1e-3 rad/s", "1e-4 rad/s")
         .replace("points = 20", "points = 800")
         .replace("points = 11", "points = 13");
-    let file = write(&folder, "many.toml", &pmma_sweep(&many));
-    let out = folder.path().join("out");
-    let mut command = program();
-    command.args(["sweep", &file, "--quiet", "--out"]).arg(&out);
-    command.assert().success();
-    let bytes = |name: &str| fs::metadata(out.join(name)).unwrap().len();
+    let place = Place::with("many.toml", &pmma_sweep(&many));
+    place.done("sweep many.toml --quiet --out out");
+    let bytes = |name: &str| place.bytes(&format!("out/{name}")).len();
     assert!(bytes("index.html") < 3_000_000, "{}", bytes("index.html"));
     // A symbol or a dot for every case takes ten times as much.
     for name in ["energy-loss.svg", "loss-map.svg", "harmonic-2-map.svg"] {
         assert!(bytes(name) < 500_000, "{name}: {}", bytes(name));
     }
-    let losses = column(&out, "energy_loss_j");
-    assert_eq!(losses.len(), 13 * 800);
+    assert_eq!(place.table("out/sweep.csv").len(), 13 * 800);
     // What is told of the cases is told of all, whatever the page shows of them.
-    let page = fs::read_to_string(out.join("index.html")).unwrap();
-    assert!(page.contains("of 10400 cases, ω = "));
-    let told = fs::read_to_string(out.join("energy-loss.caption.txt")).unwrap();
+    assert!(
+        place
+            .text("out/index.html")
+            .contains("of 10400 cases, ω = ")
+    );
+    let told = place.text("out/energy-loss.caption.txt");
     assert!(told.contains("symbols at some"), "{told}");
 }
 
 #[test]
 fn a_large_sweep_leaves_few_files_and_all_its_cycles_where_they_are_asked_for() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "large.toml", &pmma_sweep(LARGE));
-    let out = folder.path().join("out");
-    let sweep = |more: &[&str]| {
-        let mut command = program();
-        command.args(["sweep", &file, "--quiet", "--out"]).arg(&out);
-        command.args(more).assert().success();
-    };
-    sweep(&[]);
-    assert_eq!(column(&out, "energy_loss_j").len(), 220);
-    assert!(files(&out) < 100, "{}", files(&out));
-    assert!(!out.join("cycles.npz").exists());
+    let place = Place::with("large.toml", &pmma_sweep(LARGE));
+    let sweep = "sweep large.toml --quiet --out out";
+    place.done(sweep);
+    let table = place.table("out/sweep.csv").numbers("energy_loss_j");
+    assert_eq!(table.len(), 220);
+    let count = files(&place.path("out"));
+    assert!(count < 100, "{count}");
+    assert!(!place.has("out/cycles.npz"));
     // Tables of the cycles that the figures show.
-    let loops: Vec<_> = fs::read_dir(out.join("loops")).unwrap().collect();
-    assert!((2..=6).contains(&loops.len()), "{}", loops.len());
-    let page = fs::read(out.join("index.html")).unwrap();
+    let loops = files(&place.path("out/loops"));
+    assert!((2..=6).contains(&loops), "{loops}");
+    let page = place.bytes("out/index.html");
     assert!(page.len() < 3_000_000, "{}", page.len());
     // Drawn again from the records, everything is the same, and the cycles are written on demand.
-    let figure = fs::read(out.join("loops.svg")).unwrap();
-    let report = |more: &[&str]| {
-        let mut command = program();
-        command.args(["report", "--quiet"]).arg(&out).args(more);
-        command.assert().success();
-    };
-    report(&["--cycles"]);
-    assert!(fs::read(out.join("loops.svg")).unwrap() == figure);
-    assert!(fs::read(out.join("index.html")).unwrap() == page);
-    let bytes = fs::read(out.join("cycles.npz")).unwrap();
+    let figure = place.bytes("out/loops.svg");
+    place.done("report --quiet out --cycles");
+    assert!(place.bytes("out/loops.svg") == figure);
+    assert!(place.bytes("out/index.html") == page);
+    let bytes = place.bytes("out/cycles.npz");
     let (shape, losses) = array(&bytes, "energy_loss_j");
     assert_eq!(shape, [220]);
-    assert_eq!(losses, column(&out, "energy_loss_j"));
+    assert_eq!(losses, table);
     let (shape, load) = array(&bytes, "load_n");
     assert_eq!(shape, [220, 33]);
     let (shape, approach) = array(&bytes, "approach_m");
@@ -170,13 +145,9 @@ fn a_large_sweep_leaves_few_files_and_all_its_cycles_where_they_are_asked_for() 
     // The polygon of the cycle has the loss as its area but for its corners: (N/2 pi) sin(2 pi/N) of it.
     let corners = 32.0 / std::f64::consts::TAU * (std::f64::consts::TAU / 32.0).sin();
     for (case, loss) in losses.iter().enumerate() {
-        let (w, d) = (
-            &load[33 * case..33 * (case + 1)],
-            &approach[33 * case..33 * (case + 1)],
-        );
-        let area: f64 = (1..33)
-            .map(|k| 0.5 * (w[k] + w[k - 1]) * (d[k] - d[k - 1]))
-            .sum();
+        let [w, d] = [&load, &approach].map(|all| &all[33 * case..33 * (case + 1)]);
+        let area = (1..33).map(|k| 0.5 * (w[k] + w[k - 1]) * (d[k] - d[k - 1]));
+        let area: f64 = area.sum();
         assert!(
             (area / loss / corners - 1.0).abs() < 1e-3,
             "{case}: {area} {loss}"
@@ -185,6 +156,6 @@ fn a_large_sweep_leaves_few_files_and_all_its_cycles_where_they_are_asked_for() 
     let (shape, _) = array(&bytes, "profile_pressure_pa");
     assert_eq!(shape[..2], [220, 4]);
     // A second run finds everything and changes nothing.
-    sweep(&[]);
-    assert!(fs::read(out.join("index.html")).unwrap() == page);
+    place.done(sweep);
+    assert!(place.bytes("out/index.html") == page);
 }

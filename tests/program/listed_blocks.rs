@@ -2,10 +2,9 @@
 
 #![cfg(feature = "cli")]
 
-use std::fs;
 use std::sync::atomic::AtomicBool;
 
-use crate::program::{program, write};
+use crate::program::Place;
 use contact_dma::engine::EngineKind;
 use contact_dma::input::diagnostic::Styling;
 use contact_dma::input::document::Document;
@@ -14,7 +13,6 @@ use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::SweepPlan;
 use contact_dma::sweep::plan::resolved::resolved_text;
 use contact_dma::sweep::record::CaseResult;
-use tempfile::TempDir;
 
 /// What all sweeps of this file have in common; `[sweep]` is open at its end.
 const COMMON: &str = r#"
@@ -181,57 +179,28 @@ fn where_one_indenter_needs_cells_all_are_on_cells() {
     assert_is_all_of(&text, &lenses.map(under));
 }
 
-/// Runs a sweep file into a folder of this name.
-fn run(folder: &TempDir, name: &str, text: &str) {
-    let file = write(folder, &format!("{name}.toml"), text);
-    let mut command = program();
-    command.args(["sweep", &file, "--quiet", "--out"]);
-    command.arg(folder.path().join(name)).assert().success();
-}
-
 #[test]
 fn tables_figures_and_comparisons_go_by_the_names() {
-    let folder = TempDir::new().unwrap();
+    let place = Place::new();
     let sphere = alone("indenter", INDENTERS[0]);
     let [pmma, dry, _] = MATERIALS;
-    run(
-        &folder,
-        "one",
-        &format!("{COMMON}{sphere}{}", listed("material", &[pmma, dry])),
-    );
-    run(
-        &folder,
-        "other",
-        &format!("{COMMON}{sphere}{}", listed("material", &[dry, pmma])),
-    );
-    let path = |file: &str| folder.path().join(file);
-    let mut table = csv::Reader::from_path(path("one/sweep.csv")).unwrap();
-    let column = table
-        .headers()
-        .unwrap()
-        .iter()
-        .position(|name| name == "material");
-    let rows = table
-        .records()
-        .map(|row| row.unwrap()[column.unwrap()].to_owned());
-    assert_eq!(rows.collect::<Vec<_>>(), [pmma.0, pmma.0, dry.0, dry.0]);
-    let caption = fs::read_to_string(path("one/energy-loss.caption.txt")).unwrap();
+    for (name, materials) in [
+        ("one", &[pmma, dry][..]),
+        ("other", &[dry, pmma]),
+        ("less", &[dry]),
+    ] {
+        let list = listed("material", materials);
+        place.put(&format!("{name}.toml"), format!("{COMMON}{sphere}{list}"));
+        place.done(&format!("sweep {name}.toml --quiet --out {name}"));
+    }
+    let table = place.table("one/sweep.csv");
+    assert_eq!(table.cells("material"), [pmma.0, pmma.0, dry.0, dry.0]);
+    let caption = place.text("one/energy-loss.caption.txt");
     assert!(caption.contains("2 curves, one per material"), "{caption}");
     // Names have no order to draw along.
-    assert!(!path("one/loss-map.svg").exists() && !path("one/peaks.svg").exists());
-    let mut compare = program();
-    compare.arg("compare").args([path("one"), path("other")]);
-    let same = compare.assert().success();
-    let told = String::from_utf8_lossy(&same.get_output().stdout).into_owned();
-    assert!(told.contains("4 cases in both results"), "{told}");
-    run(
-        &folder,
-        "less",
-        &format!("{COMMON}{sphere}{}", listed("material", &[dry])),
-    );
-    let mut compare = program();
-    compare.arg("compare").args([path("one"), path("less")]);
-    let differs = compare.assert().code(4);
-    let told = String::from_utf8_lossy(&differs.get_output().stdout).into_owned();
-    assert!(told.contains("(pmma, mean 1, amplitude 0.5)"), "{told}");
+    assert!(!place.has("one/loss-map.svg") && !place.has("one/peaks.svg"));
+    let same = place.done("compare one other");
+    same.says(&["4 cases in both results"]);
+    let differs = place.run("compare one less").ended(4);
+    differs.says(&["(pmma, mean 1, amplitude 0.5)"]);
 }

@@ -2,9 +2,8 @@
 
 #![cfg(feature = "cli")]
 
-use crate::program::{SVG_ALONE, pmma_sweep, program, write};
+use crate::program::{Place, SVG, pmma_sweep, program};
 use serde_json::Value;
-use tempfile::TempDir;
 
 const THREE: &str = r#"[sweep]
 angular_frequency = ["0.004 rad/s", "0.008 rad/s", "0.02 rad/s"]
@@ -12,30 +11,17 @@ angular_frequency = ["0.004 rad/s", "0.008 rad/s", "0.02 rad/s"]
 
 #[test]
 fn json_holds_the_summary_and_every_column_of_every_case() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "small.toml", &pmma_sweep(THREE));
-    let out = folder.path().join("out");
-    for quiet in [None, Some("--quiet")] {
-        let mut command = program();
-        command
-            .args(["sweep", &file, "--format", "json", "--out"])
-            .arg(&out)
-            .args(quiet);
-        let assert = command.assert().success();
-        let printed: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
-        let summary = std::fs::read(out.join("summary.json")).unwrap();
-        assert_eq!(
-            printed["summary"],
-            serde_json::from_slice::<Value>(&summary).unwrap()
-        );
-        let mut table = csv::Reader::from_path(out.join("sweep.csv")).unwrap();
-        let columns = table.headers().unwrap().clone();
-        let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
+    let place = Place::with("small.toml", &pmma_sweep(THREE));
+    for quiet in ["", "--quiet"] {
+        let run = format!("sweep small.toml --format json --out out {quiet}");
+        let printed = place.done(&run).json();
+        assert_eq!(printed["summary"], place.json("out/summary.json"));
+        let table = place.table("out/sweep.csv");
         let cases = printed["cases"].as_array().unwrap();
-        assert_eq!(cases.len(), rows.len());
-        for (case, row) in cases.iter().zip(&rows) {
-            assert_eq!(case.as_object().unwrap().len(), columns.len());
-            for (column, cell) in columns.iter().zip(row) {
+        assert_eq!(cases.len(), table.len());
+        for (case, row) in cases.iter().zip(&table.rows) {
+            assert_eq!(case.as_object().unwrap().len(), row.len());
+            for (column, cell) in table.columns.iter().zip(row) {
                 match &case[column] {
                     Value::Null => assert_eq!(cell, ""),
                     Value::String(text) => assert_eq!(text, cell),
@@ -47,79 +33,62 @@ fn json_holds_the_summary_and_every_column_of_every_case() {
     }
 }
 
-/// Runs the program in a folder and reads what it prints as JSON; exit codes may be those of a command that did its work.
-fn json(folder: &TempDir, arguments: &[&str]) -> Value {
-    let output = program()
-        .current_dir(folder.path())
-        .args(arguments)
-        .args(["--format", "json"])
-        .env("COLUMNS", "40")
-        .output()
-        .unwrap();
-    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.success(), "{arguments:?}: {stderr}");
-    let value: Value = serde_json::from_slice(&output.stdout).unwrap();
+/// What a command prints as JSON.
+fn json(place: &Place, line: &str) -> Value {
+    let line = format!("{line} --format json");
+    let value = place.run_in(&line, &[("COLUMNS", "40")]).ended(0).json();
     assert!(value.is_object());
     value
 }
 
 #[test]
 fn every_command_that_finds_something_prints_it_as_one_object() {
-    let folder = TempDir::new().unwrap();
-    let file = &write(&folder, "small.toml", &pmma_sweep(THREE));
-    let plan = json(&folder, &["plan", file]);
+    let place = Place::with("small.toml", &pmma_sweep(THREE));
+    let plan = json(&place, "plan small.toml");
     assert_eq!(plan["cases"].as_array().unwrap().len(), 3);
     assert_eq!(plan["cases"][1]["angular_frequency_rad_per_s"], 0.008);
     assert!(plan["cases"][1]["cycles"].is_u64());
     assert!(plan["time_on_one_thread_s"].as_f64().unwrap() > 0.0 && plan["cells"].is_null());
-    assert_eq!(
-        json(&folder, &["sweep", file, "--dry-run"])["springs"],
-        plan["springs"]
-    );
-    let sweep = json(&folder, &["sweep", file, "--no-figures", "--out", "a"]);
-    assert_eq!(json(&folder, &["report", "a"]), sweep);
+    let dry = json(&place, "sweep small.toml --dry-run");
+    assert_eq!(dry["springs"], plan["springs"]);
+    let sweep = json(&place, "sweep small.toml --no-figures --out a");
+    assert_eq!(json(&place, "report a"), sweep);
     for (shard, out) in [("1/2", "b"), ("2/2", "c")] {
-        let part = json(&folder, &["sweep", file, "--shard", shard, "--out", out]);
+        let part = json(
+            &place,
+            &format!("sweep small.toml --shard {shard} --out {out}"),
+        );
         assert_eq!(part["shard"], shard);
         assert_eq!(part["cases_done"], part["cases_of_shard"]);
     }
-    assert_eq!(json(&folder, &["merge", "b", "c", "--out", "d"]), sweep);
-    let comparison = json(&folder, &["compare", "a", "d"]);
-    assert_eq!(
-        (&comparison["differs"], &comparison["compared"]),
-        (&false.into(), &3.into())
-    );
-    let columns = comparison["columns"].as_array().unwrap();
-    let loss = columns
-        .iter()
-        .find(|c| c["name"] == "energy_loss_j")
-        .unwrap();
+    assert_eq!(json(&place, "merge b c --out d"), sweep);
+    let comparison = json(&place, "compare a d");
+    assert_eq!(comparison["differs"], false);
+    assert_eq!(comparison["compared"], 3);
+    let mut columns = comparison["columns"].as_array().unwrap().iter();
+    let loss = columns.find(|c| c["name"] == "energy_loss_j").unwrap();
     assert!(loss["largest"].is_null());
-    let scenario = pmma_sweep("").replace(
+    let ramp = pmma_sweep("[solver]\nsprings = 50\n").replace(
         "mean = \"10 N\"\namplitude = \"5 N\"",
         "segments = [{ kind = \"ramp\", to = 1, duration = 1 }]",
     );
-    let scenario = &write(
-        &folder,
-        "ramp.toml",
-        &format!("{scenario}[solver]\nsprings = 50\n"),
-    );
-    let dry = json(&folder, &["simulate", scenario, "--dry-run"]);
-    let history = json(&folder, &["simulate", scenario, "--no-figures"]);
+    place.put("ramp.toml", ramp);
+    let dry = json(&place, "simulate ramp.toml --dry-run");
+    let history = json(&place, "simulate ramp.toml --no-figures");
     let rows = history["history"].as_array().unwrap();
-    assert_eq!(rows.len(), dry["time_steps"].as_u64().unwrap() as usize);
+    assert_eq!(dry["time_steps"], rows.len());
     assert_eq!(rows.last().unwrap()["load_n"], 1.0);
     assert_eq!(history["summary"]["title"], "PMMA under a sphere");
-    assert!(!folder.path().join("reports/ramp/index.html").exists());
+    assert!(!place.has("reports/ramp/index.html"));
 }
 
 #[test]
 fn materials_are_printed_as_objects_too() {
-    let folder = TempDir::new().unwrap();
-    let list = json(&folder, &["material", "list"]);
+    let place = Place::new();
+    let list = json(&place, "material list");
     let names = list["materials"].as_array().unwrap();
     assert!(names.iter().any(|material| material["name"] == "pmma"));
-    let shown = json(&folder, &["material", "show", "pmma"]);
+    let shown = json(&place, "material show pmma");
     assert_eq!(shown["relaxation"]["equilibrium_pa"], 1.973e9);
     assert!(shown["peaks"]["loss_modulus"][0]["value"].as_f64().unwrap() > 1e7);
     assert!(shown["fit"].is_null());
@@ -133,14 +102,14 @@ fn materials_are_printed_as_objects_too() {
         });
         format!("{time_s},{}\n", first + creep.sum::<f64>())
     });
-    let table = format!(
-        "time_s,creep_compliance_per_pa\n{}",
-        rows.collect::<String>()
+    let rows: String = rows.collect();
+    place.put(
+        "creep.csv",
+        format!("time_s,creep_compliance_per_pa\n{rows}"),
     );
-    write(&folder, "creep.csv", &table);
     let arguments =
         "material fit creep.csv --quantity creep --modulus longitudinal --poisson-ratio 0.38";
-    let fit = json(&folder, &arguments.split(' ').collect::<Vec<_>>());
+    let fit = json(&place, arguments);
     assert_eq!(fit["fit"]["samples"], 40);
     assert!(fit["fit"]["relative_misfit"]["rms"].as_f64().unwrap() < 1e-3);
     let block = fit["material_toml"].as_str().unwrap();
@@ -301,7 +270,7 @@ fn read_comsol(text: &str, nu: f64) -> Prony {
 
 #[test]
 fn what_is_exported_has_the_same_complex_modulus_when_it_is_read_back() {
-    let folder = TempDir::new().unwrap();
+    let place = Place::new();
     let branches = (0..17).map(|k| {
         let k = f64::from(k);
         (
@@ -322,12 +291,12 @@ fn what_is_exported_has_the_same_complex_modulus_when_it_is_read_back() {
             "[material]\npoisson_ratio = {nu}\n[material.relaxation]\nmodulus = \"{kind}\"\n\
              equilibrium = \"1.3 MPa\"\nbranches = [{rows}]\n"
         );
-        write(&folder, "material.toml", &block);
+        place.put("material.toml", block);
         let exact = own.scaled(to_longitudinal);
         let export = |name: &str| {
             let printed = json(
-                &folder,
-                &["material", "export", "material.toml", "--to", name],
+                &place,
+                &format!("material export material.toml --to {name}"),
             );
             let text = printed["text"].as_str().unwrap().to_owned();
             (text, printed["conversion_error"].as_f64().unwrap())
@@ -369,7 +338,7 @@ fn what_is_exported_has_the_same_complex_modulus_when_it_is_read_back() {
 
 #[test]
 fn a_material_from_dynamic_data_is_exported_with_its_shift() {
-    let folder = TempDir::new().unwrap();
+    let place = Place::new();
     let solid = Prony {
         equilibrium_pa: 1e6,
         branches: (0..7).map(|k| (2e7, 10_f64.powi(k - 4))).collect(),
@@ -385,43 +354,23 @@ fn a_material_from_dynamic_data_is_exported_with_its_shift() {
             table.push_str(&format!("{celsius},{hertz},{storage},{loss}\n"));
         }
     }
-    write(&folder, "dma.csv", &table);
+    place.put("dma.csv", table);
     let block = "[material]\npoisson_ratio = 0.45\n[material.dynamic]\nfile = \"dma.csv\"\nmodulus = \"shear\"\n\
                  reference_temperature = \"25 °C\"\n";
-    write(&folder, "material.toml", block);
-    let at_40 = block.replace(
-        "[material.dynamic]",
-        "temperature = \"40 °C\"\n[material.dynamic]",
-    );
-    write(&folder, "at_40.toml", &at_40);
+    place.put("material.toml", block);
+    let at_40 = "temperature = \"40 °C\"\n[material.dynamic]";
+    place.put("at_40.toml", block.replace("[material.dynamic]", at_40));
     // What `fit` writes knows the law as well.
-    let fit = [
-        "material",
-        "fit",
-        "dma.csv",
-        "--quantity",
-        "dynamic",
-        "--modulus",
-        "shear",
-        "--poisson-ratio",
-        "0.45",
-        "--reference-temperature",
-        "25 °C",
-        "--out",
-        "fit",
-    ];
-    let fitted = json(&folder, &fit);
-    write(
-        &folder,
-        "fitted.toml",
-        fitted["shifting_toml"].as_str().unwrap(),
-    );
+    let fit = "material fit dma.csv --quantity dynamic --modulus shear --poisson-ratio 0.45 --reference-temperature '25 °C' --out fit";
+    let fitted = json(&place, fit);
+    place.put("fitted.toml", fitted["shifting_toml"].as_str().unwrap());
     for (file, reference) in [
         ("material.toml", 25.0),
         ("at_40.toml", 40.0),
         ("fitted.toml", 25.0),
     ] {
-        let printed = json(&folder, &["material", "export", file, "--to", "abaqus"]);
+        let export = format!("material export {file} --to");
+        let printed = json(&place, &format!("{export} abaqus"));
         let text = printed["text"].as_str().unwrap();
         let (_, law) = text.split_once("*TRS, DEFINITION=WLF\n").unwrap();
         let [reference_k, c1, c2] = numbers(law.trim())[..] else {
@@ -435,129 +384,85 @@ fn a_material_from_dynamic_data_is_exported_with_its_shift() {
             let exact = shift(celsius) - shift(reference);
             assert!((read - exact).abs() < 0.03, "{read}, {exact}");
         }
-        assert_eq!(
-            json(&folder, &["material", "export", file, "--to", "ansys"])["program"],
-            "ansys"
-        );
+        let ansys = json(&place, &format!("{export} ansys"));
+        assert_eq!(ansys["program"], "ansys");
     }
 }
 
 #[test]
 fn an_export_goes_into_a_file_or_alone_to_standard_output() {
-    let folder = TempDir::new().unwrap();
-    let export = |arguments: &[&str]| {
-        let mut command = program();
-        command.current_dir(folder.path());
-        command
-            .args(["material", "export", "pmma", "--to"])
-            .args(arguments);
-        command.assert()
-    };
-    let printed = export(&["csv"]).success();
+    let place = Place::new();
+    let export = |rest: &str| place.run(&format!("material export pmma --to {rest}"));
+    let printed = export("csv").ended(0);
     let csv = "modulus_pa,time_s\n1973000000.0,\n254776000.0,8.93\n263662800.0,117.96\n";
-    assert_eq!(String::from_utf8_lossy(&printed.get_output().stdout), csv);
-    let said = String::from_utf8_lossy(&printed.get_output().stderr).into_owned();
+    assert_eq!(printed.stdout, csv);
+    let said = printed.stderr;
     assert!(said.contains("Error of the conversion") && said.contains("Poisson ratio 0.38"));
-    export(&["abaqus", "--out", "inp/pmma.inp"]).success();
-    let text = std::fs::read_to_string(folder.path().join("inp/pmma.inp")).unwrap();
+    export("abaqus --out inp/pmma.inp").ended(0);
+    let text = place.text("inp/pmma.inp");
     // What the comments of the file say is not printed too, but how exact its digits are.
-    let printed = export(&["abaqus", "--out", "inp/pmma.inp"]).success();
-    let printed = String::from_utf8_lossy(&printed.get_output().stdout).into_owned();
+    let printed = export("abaqus --out inp/pmma.inp").ended(0).stdout;
     assert!(
         text.contains("** Units: Pa, s, K.") && !printed.contains("Units"),
         "{printed}"
     );
     assert!(printed.contains("Error of the conversion"), "{printed}");
     assert!(text.contains("*MATERIAL, NAME=PMMA\n"), "{text}");
-    let folder_name = folder.path().to_str().unwrap();
-    for wrong in [["nastran", "--out", "x"], ["csv", "--out", folder_name]] {
-        export(&wrong).code(predicates::ord::ne(0));
+    for wrong in ["nastran --out x", "csv --out ."] {
+        assert_ne!(export(wrong).code, 0);
     }
-}
-
-/// What a sweep of PMMA around its peak leaves in this folder, and what it prints; frequencies as given.
-fn swept(folder: &TempDir, name: &str, frequencies: &str) -> (std::path::PathBuf, String) {
-    let file = write(folder, &format!("{name}.toml"), &pmma_sweep(frequencies));
-    let out = folder.path().join(name);
-    let mut command = program();
-    let run = command.args(["sweep", &file, "--quiet", "--out"]).arg(&out);
-    let run = run.args(SVG_ALONE).env("COLUMNS", "200");
-    let run = run.assert().success();
-    let printed = String::from_utf8(run.get_output().stdout.clone()).unwrap();
-    (out, printed)
 }
 
 #[test]
 fn the_unit_of_the_frequencies_asked_for_comes_first_in_every_output() {
-    let folder = TempDir::new().unwrap();
     let hz = "[sweep]\nfrequency = [\"0.001 Hz\", \"0.0013 Hz\", \"0.003 Hz\"]\n";
-    let (in_hz, _) = swept(&folder, "hz", hz);
-    let read = |out: &std::path::Path, name: &str| {
-        std::fs::read_to_string(out.join(name)).unwrap_or_else(|why| panic!("{name}: {why}"))
-    };
-    let table = read(&in_hz, "sweep.csv");
+    let place = Place::with("hz.toml", &pmma_sweep(hz));
+    place.done(&format!("sweep hz.toml --quiet --out out {SVG}"));
+    let read = |name: &str| place.text(&format!("out/{name}"));
+    let table = read("sweep.csv");
     let mut rows = table.lines();
     let columns = rows.next().unwrap();
     assert!(columns.starts_with("frequency_hz,angular_frequency_rad_per_s,drive_mean,"));
     assert!(rows.next().unwrap().starts_with("1e-3,6.283"), "{table}");
     for name in ["energy-loss", "loops", "dissipation", "moduli", "cole-cole"] {
-        let data = read(&in_hz, &format!("{name}.csv"));
-        let columns = data.lines().next().unwrap();
+        let columns = place.table(&format!("out/{name}.csv")).columns.join(",");
         assert!(
             columns.contains("frequency_hz,angular_frequency_rad_per_s"),
             "{columns}"
         );
     }
-    let caption = read(&in_hz, "energy-loss.caption.txt");
-    assert!(caption.contains("over frequency f: "), "{caption}");
-    assert!(
-        caption.contains("at f = (1.3") && caption.contains(" × 10⁻³ Hz"),
-        "{caption}"
-    );
+    let caption = read("energy-loss.caption.txt");
+    for part in ["over frequency f: ", "at f = (1.3", " × 10⁻³ Hz"] {
+        assert!(caption.contains(part), "{caption}");
+    }
     assert!(!caption.contains("rad/s"), "{caption}");
-    let page = read(&in_hz, "index.html");
+    let page = read("index.html");
     assert!(page.contains("<th scope=\"col\" data-column=\"frequency_hz\">f / Hz</th>"));
     assert!(!page.contains("rad/s</strong>") && page.contains("Hz</strong>"));
     // The file with every default keeps the unit, and is the same sweep as in rad/s.
-    let resolved = read(&in_hz, "resolved.toml");
+    let resolved = read("resolved.toml");
     assert!(resolved.contains("frequency_unit = \"Hz\""), "{resolved}");
-    let angular = resolved.replace("frequency_unit = \"Hz\"", "");
-    let angular_file = write(&folder, "angular.toml", &angular);
-    let resumed = program()
-        .args(["sweep", &angular_file, "--quiet", "--out"])
-        .arg(&in_hz)
-        .assert()
-        .success();
-    let said = String::from_utf8_lossy(&resumed.get_output().stderr).into_owned();
-    let table = read(&in_hz, "sweep.csv");
-    assert!(
-        table.starts_with("angular_frequency_rad_per_s,frequency_hz,"),
-        "{said}{table}"
+    place.put(
+        "angular.toml",
+        resolved.replace("frequency_unit = \"Hz\"", ""),
     );
-    let mut report = program();
-    let report = report.args(["report", "--quiet", "--set", "figures.frequency_unit=Hz"]);
-    report.arg(&in_hz).assert().success();
-    assert!(read(&in_hz, "sweep.csv").starts_with("frequency_hz,"));
+    place.done("sweep angular.toml --quiet --out out");
+    assert!(read("sweep.csv").starts_with("angular_frequency_rad_per_s,frequency_hz,"));
+    place.done("report --quiet out --set figures.frequency_unit=Hz");
+    assert!(read("sweep.csv").starts_with("frequency_hz,"));
 }
 
 #[test]
 fn nothing_that_is_piped_or_asked_to_be_plain_is_coloured() {
-    let folder = TempDir::new().unwrap();
-    let good = write(&folder, "small.toml", &pmma_sweep(THREE));
-    let bad = write(
-        &folder,
-        "bad.toml",
-        &pmma_sweep(THREE).replace("radius", "raduis"),
-    );
-    for file in [good, bad] {
-        for no_color in [None, Some("1")] {
+    let place = Place::with("good.toml", &pmma_sweep(THREE));
+    place.put("bad.toml", pmma_sweep(THREE).replace("radius", "raduis"));
+    for file in ["good.toml", "bad.toml"] {
+        for no_color in [None, Some(("NO_COLOR", "1"))] {
             let mut command = program();
-            command
-                .args(["sweep", &file, "--no-figures", "--out"])
-                .arg(folder.path().join("out"));
+            command.current_dir(place.path(""));
+            command.args(["sweep", file, "--no-figures", "--out", "out"]);
             command.env_remove("NO_COLOR").env_remove("CLICOLOR_FORCE");
-            command.envs(no_color.map(|value| ("NO_COLOR", value)));
-            let output = command.output().unwrap();
+            let output = command.envs(no_color).output().unwrap();
             assert!(!output.stdout.contains(&0x1b) && !output.stderr.contains(&0x1b));
         }
     }
@@ -565,17 +470,12 @@ fn nothing_that_is_piped_or_asked_to_be_plain_is_coloured() {
 
 #[test]
 fn a_plan_counts_what_an_accuracy_takes() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "small.toml", &pmma_sweep(THREE));
+    let place = Place::with("small.toml", &pmma_sweep(THREE));
     let time_s = |accuracy: &str| {
-        let mut command = program();
-        command.args(["plan", &file, "--format", "json", "--accuracy", accuracy]);
-        let assert = command.assert().success();
-        let plan: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
+        let plan = json(&place, &format!("plan small.toml --accuracy {accuracy}"));
         let cases = plan["cases"].as_array().unwrap().iter();
-        cases
-            .map(|case| case["time_s"].as_f64().unwrap())
-            .sum::<f64>()
+        let times = cases.map(|case| case["time_s"].as_f64().unwrap());
+        times.sum::<f64>()
     };
     // An error of second order: some five times as many steps, and springs.
     let (coarse, fine) = (time_s("1e-2"), time_s("1e-5"));

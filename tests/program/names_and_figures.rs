@@ -3,12 +3,7 @@
 
 #![cfg(feature = "cli")]
 
-use std::fs;
-
-use crate::program::{SVG_ALONE, pmma_sweep, program, write};
-use predicates::prelude::PredicateBooleanExt;
-use predicates::str::contains;
-use tempfile::TempDir;
+use crate::program::{Place, SVG, pmma_sweep};
 
 /// A cheap sweep of one frequency.
 const ONE: &str = "[sweep]\nangular_frequency = \"0.01 rad/s\"\n[cycle]\nsteps = 16\nerror_bars = false\n[solver]\nsprings = 16\n";
@@ -35,47 +30,28 @@ name = "{second}"
 
 #[test]
 fn letters_that_the_typeface_lacks_are_said() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "letters.toml", &two_materials("a", "材料"));
-    program()
-        .args(["sweep", &file, "--out"])
-        .arg(folder.path().join("out"))
-        .args(SVG_ALONE)
-        .assert()
-        .success()
-        .stdout(contains("does not have 料 材"));
+    let place = Place::with("letters.toml", &two_materials("a", "材料"));
+    let run = place.done(&format!("sweep letters.toml --out out {SVG}"));
+    run.says(&["does not have 料 材"]);
 }
 
 #[test]
 fn a_name_with_the_letters_of_a_header_stays_as_it_is() {
-    let folder = TempDir::new().unwrap();
     let body = "[indenter.material]\nname = \"steel [material 4]\"\nelastic = { modulus = \"210 GPa\", poisson_ratio = 0.3 }\n";
-    let text = pmma_sweep(ONE).replace("[drive]", &format!("{body}[drive]"));
-    let (file, out) = (
-        write(&folder, "name.toml", &text),
-        folder.path().join("out"),
-    );
-    program()
-        .args(["sweep", &file, "--no-figures", "--out"])
-        .arg(&out)
-        .assert()
-        .success();
-    let resolved = fs::read_to_string(out.join("resolved.toml")).unwrap();
-    assert!(
-        resolved.contains("[indenter.material]") && resolved.contains("\"steel [material 4]\""),
-        "{resolved}"
-    );
+    let place = Place::new();
+    place.swept(&pmma_sweep(ONE).replace("[drive]", &format!("{body}[drive]")));
+    let resolved = place.text("out/resolved.toml");
+    assert!(resolved.contains("[indenter.material]"), "{resolved}");
+    assert!(resolved.contains("\"steel [material 4]\""), "{resolved}");
 }
 
 /// A strip too narrow for a map with labels.
 #[test]
 fn a_figure_that_cannot_be_drawn_is_a_warning_beside_a_finished_history() {
-    let folder = TempDir::new().unwrap();
     let row: Vec<String> = (0..256)
         .map(|x| format!("{:e}", 1e-8 * f64::from(x % 64)))
         .collect();
-    let map = vec![row.join(","); 16].join("\n");
-    write(&folder, "map.csv", &map);
+    let place = Place::with("map.csv", &vec![row.join(","); 16].join("\n"));
     let text = r#"title = "strip"
 material.library = "pmma"
 indenter = { shape = "height-map", file = "map.csv", spacing = "1 um", edge = "periodic" }
@@ -83,41 +59,24 @@ drive = { control = "pressure", segments = [{ kind = "ramp", to = "1 MPa", durat
 time.step = "0.5 s"
 output.fields_at = ["1 s"]
 "#;
-    let (file, out) = (
-        write(&folder, "strip.toml", text),
-        folder.path().join("out"),
-    );
-    program()
-        .args(["simulate", &file, "--out"])
-        .arg(&out)
-        .args(SVG_ALONE)
-        .assert()
-        .success()
-        .stdout(contains("no figure pressure-map"));
+    place.put("strip.toml", text);
+    let run = place.done(&format!("simulate strip.toml --out out {SVG}"));
+    run.says(&["no figure pressure-map"]);
     for name in ["history.csv", "index.html", "history.svg"] {
-        assert!(out.join(name).exists(), "{name}");
+        assert!(place.has(&format!("out/{name}")), "{name}");
     }
 }
 
 #[test]
 fn an_angle_is_told_in_degrees_everywhere() {
-    let folder = TempDir::new().unwrap();
     let axis = "[sweep]\ndrive.phase = { from = \"-30 deg\", to = \"10 deg\", points = 2, spacing = \"linear\" }";
     let frequencies = "[\"0.005 rad/s\", \"0.008 rad/s\", \"0.02 rad/s\"]";
     let text = pmma_sweep(ONE).replace("[sweep]", axis);
-    let text = text.replace("\"0.01 rad/s\"", frequencies);
-    let (file, out) = (
-        write(&folder, "angle.toml", &text),
-        folder.path().join("out"),
-    );
-    let assert = program()
-        .args(["sweep", &file, "--out"])
-        .arg(&out)
-        .args(SVG_ALONE)
-        .assert()
-        .success();
-    let printed = String::from_utf8_lossy(&assert.get_output().stdout).into_owned();
-    let caption = fs::read_to_string(out.join("energy-loss.caption.txt")).unwrap();
+    let place = Place::with("angle.toml", &text.replace("\"0.01 rad/s\"", frequencies));
+    let printed = place
+        .done(&format!("sweep angle.toml --out out {SVG}"))
+        .stdout;
+    let caption = place.text("out/energy-loss.caption.txt");
     assert!(printed.contains("phase 10°"), "{printed}");
     assert!(caption.contains("-30° to 10°"), "{caption}");
     assert!(!(printed + &caption).contains("0.5236"));
@@ -125,9 +84,9 @@ fn an_angle_is_told_in_degrees_everywhere() {
 
 #[test]
 fn a_material_that_the_library_does_not_have_is_answered_with_those_it_has() {
-    program()
-        .args(["material", "show", "pvc"])
-        .assert()
-        .code(2)
-        .stderr(contains("The library has ").and(contains("pvb")));
+    let told = Place::new().refused("material show pvc");
+    assert!(
+        told.contains("The library has ") && told.contains("pvb"),
+        "{told}"
+    );
 }

@@ -3,13 +3,9 @@
 
 #![cfg(feature = "cli")]
 
-use std::fs;
-use std::path::Path;
-
 use crate::html::{assert_stands_alone, between, data, nesting_problems, unescaped};
-use crate::program::{SVG_ALONE, program, write};
+use crate::program::{Place, SVG};
 use serde_json::Value;
-use tempfile::TempDir;
 
 /// A quick sweep; frequencies and title as told.
 fn sweep_file(title: &str, frequencies: &str, more: &str) -> String {
@@ -19,31 +15,29 @@ fn sweep_file(title: &str, frequencies: &str, more: &str) -> String {
     )
 }
 
-/// Runs a sweep or a scenario; the page it leaves. The folder must live on for the files beside it.
-fn page(folder: &TempDir, text: &str, code: i32) -> String {
-    let command = if text.contains("[sweep]") {
-        "sweep"
-    } else {
-        "simulate"
+/// Runs a sweep or a scenario; the page it leaves, and the files beside it in `out`.
+fn page(text: &str, code: i32) -> (String, Place) {
+    let command = match text.contains("[sweep]") {
+        true => "sweep",
+        false => "simulate",
     };
-    let file = write(folder, "input.toml", text);
-    let out = folder.path().join("out");
-    let mut run = program();
-    run.args([command, &file, "--quiet", "--out"]).arg(&out);
-    run.args(SVG_ALONE).assert().code(code);
-    read(folder.path(), "index.html")
+    let place = Place::with("input.toml", text);
+    let run = format!("{command} input.toml --quiet --out out {SVG}");
+    place.run(&run).ended(code);
+    (place.text("out/index.html"), place)
 }
 
-fn read(folder: &Path, name: &str) -> String {
-    fs::read_to_string(folder.join("out").join(name)).unwrap()
+/// The input file that a page shows.
+fn shown_file(page: &str) -> String {
+    let code = "aria-labelledby=\"file-heading\"><code>";
+    unescaped(between(page, code, "</code></pre>"))
 }
 
 const SIXTY: &str = r#"{ from = "1e-4 rad/s", to = "1 rad/s", points = 60, spacing = "log" }"#;
 
 #[test]
 fn a_page_of_sixty_frequencies_is_small_and_loads_nothing() {
-    let folder = TempDir::new().unwrap();
-    let page = page(&folder, &sweep_file("\"sixty\"", SIXTY, ""), 0);
+    let (page, _) = page(&sweep_file("\"sixty\"", SIXTY, ""), 0);
     println!("index.html of 60 frequencies: {} bytes", page.len());
     assert!(page.len() < 1_500_000, "{}", page.len());
     assert_stands_alone(&page);
@@ -51,24 +45,15 @@ fn a_page_of_sixty_frequencies_is_small_and_loads_nothing() {
 
 #[test]
 fn a_page_holds_the_table_the_cycles_and_the_sweep_file_of_its_folder() {
-    let folder = TempDir::new().unwrap();
     let frequencies = r#"["0.004 rad/s", "0.008 rad/s", "0.02 rad/s"]"#;
-    let page = page(&folder, &sweep_file("\"three\"", frequencies, ""), 0);
+    let (page, place) = page(&sweep_file("\"three\"", frequencies, ""), 0);
     let data = data(&page);
-    assert_eq!(
-        data["csv"].as_str().unwrap(),
-        read(folder.path(), "sweep.csv")
-    );
-    let summary: Value = serde_json::from_str(&read(folder.path(), "summary.json")).unwrap();
+    assert_eq!(data["csv"], place.text("out/sweep.csv"));
+    let summary = place.json("out/summary.json");
     assert_eq!(data["peaks"], summary["peaks"]);
     assert!(page.contains(summary["sweep_hash"].as_str().unwrap()));
     for case in data["cases"].as_array().unwrap() {
-        let table = read(folder.path(), &format!("loops/{}.csv", case["index"]));
-        let samples: Vec<Vec<f64>> = table
-            .lines()
-            .skip(1)
-            .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
-            .collect();
+        let samples = place.table(&format!("out/loops/{}.csv", case["index"]));
         let columns = [
             "time_s",
             "load_n",
@@ -79,23 +64,20 @@ fn a_page_holds_the_table_the_cycles_and_the_sweep_file_of_its_folder() {
         let numbers = |name: &str| case[name].as_array().unwrap();
         // 200 steps a cycle: every second sample is on the page.
         assert_eq!(numbers("time_s").len(), 101);
-        for (column, name) in columns.into_iter().enumerate() {
+        for name in columns {
+            let samples = samples.cells(name);
             for (k, shown) in numbers(name).iter().enumerate() {
-                let rounded: f64 = format!("{:.5e}", samples[2 * k][column]).parse().unwrap();
-                assert_eq!(shown.as_f64().unwrap(), rounded, "{name} {k}");
+                assert_eq!(
+                    shown.as_f64().unwrap(),
+                    rounded(samples[2 * k]),
+                    "{name} {k}"
+                );
             }
         }
+        holds_the_surface(&place, case);
     }
-    for case in data["cases"].as_array().unwrap() {
-        holds_the_surface(folder.path(), case);
-    }
-    let resolved = read(folder.path(), "resolved.toml");
-    let shown = between(
-        &page,
-        "aria-labelledby=\"file-heading\"><code>",
-        "</code></pre>",
-    );
-    assert_eq!(unescaped(shown), resolved);
+    let resolved = place.text("out/resolved.toml");
+    assert_eq!(shown_file(&page), resolved);
     let link = between(
         &page,
         "download=\"resolved.toml\" href=\"data:text/plain;charset=utf-8,",
@@ -128,11 +110,11 @@ fn rounded(cell: &str) -> f64 {
 }
 
 /// What the page has of a case of springs is in its files: every place of the pressures, some of the work.
-fn holds_the_surface(folder: &Path, case: &Value) {
-    let rows = |name: &str| -> Vec<Vec<String>> {
-        let table = read(folder, &format!("{name}/{}.csv", case["index"]));
-        let cells = |line: &str| line.split(',').map(str::to_owned).collect();
-        table.lines().skip(1).map(cells).collect()
+fn holds_the_surface(place: &Place, case: &Value) {
+    let rows = |name: &str| {
+        place
+            .table(&format!("out/{name}/{}.csv", case["index"]))
+            .rows
     };
     let pressures = rows("pressures");
     let (instants, line) = (&case["pressure"]["instants"], &case["pressure"]["lines"][0]);
@@ -169,9 +151,8 @@ fn holds_the_surface(folder: &Path, case: &Value) {
 
 #[test]
 fn a_title_that_is_code_is_shown_as_text() {
-    let folder = TempDir::new().unwrap();
     let title = r#"'</script><script>alert("x")</script><!-- {{data}} & <b>'"#;
-    let page = page(&folder, &sweep_file(title, r#"["0.008 rad/s"]"#, ""), 0);
+    let (page, _) = page(&sweep_file(title, r#"["0.008 rad/s"]"#, ""), 0);
     assert_eq!(page.matches("<script").count(), 2);
     assert_eq!(page.matches("</script").count(), 2);
     assert!(!page.contains("<!-- {"));
@@ -185,29 +166,25 @@ fn a_title_that_is_code_is_shown_as_text() {
 
 #[test]
 fn cases_without_a_result_are_named_with_the_reason_and_have_no_cycle() {
-    let folder = TempDir::new().unwrap();
     // Waiting two cycles for the stabilised one is enough at a low frequency alone.
     let more = "[cycle]\nmethod = \"march\"\nmax_cycles = 2\nerror_bars = false\n";
     let file = sweep_file("\"some\"", r#"["0.0001 rad/s", "0.1 rad/s"]"#, more);
-    let page = page(&folder, &file, 3);
-    let data = data(&page);
-    assert_eq!(data["cases"].as_array().unwrap().len(), 1);
-    assert!(page.contains("<li>ω = 0.1000 rad/s: not-converged: "));
-    assert!(page.contains("<td class=\"text\">not-converged</td>"));
-    let folder = TempDir::new().unwrap();
+    let (some, _) = page(&file, 3);
+    assert_eq!(data(&some)["cases"].as_array().unwrap().len(), 1);
+    assert!(some.contains("<li>ω = 0.1000 rad/s: not-converged: "));
+    assert!(some.contains("<td class=\"text\">not-converged</td>"));
     let file = sweep_file("\"none\"", r#"["0.05 rad/s", "0.1 rad/s"]"#, more);
-    let page = self::page(&folder, &file, 3);
+    let (page, _) = page(&file, 3);
     assert!(page.contains("No case has a result: there is nothing to draw."));
     assert_eq!(nesting_problems(&page), Vec::<String>::new());
 }
 
 #[test]
 fn a_sweep_of_two_axes_names_its_drives() {
-    let folder = TempDir::new().unwrap();
     let more = "drive.amplitude = [\"2 N\", \"5 N\"]\n";
     let frequencies = r#"["0.004 rad/s", "0.008 rad/s", "0.02 rad/s"]"#;
     let text = sweep_file("\"two axes\"", frequencies, more);
-    let page = page(&folder, &text, 0);
+    let (page, _) = page(&text, 0);
     let data = data(&page);
     assert_eq!(data["varied"][0]["column"], "drive_amplitude");
     assert_eq!(data["cases"].as_array().unwrap().len(), 6);
@@ -216,151 +193,102 @@ fn a_sweep_of_two_axes_names_its_drives() {
 
 #[test]
 fn a_page_of_a_history_holds_its_signals_profiles_and_fields() {
-    let folder = TempDir::new().unwrap();
     let text = "title = \"<script>\"\n[material]\nlibrary = \"pmma\"\n[indenter]\nshape = \"sphere\"\nradius = \"10 mm\"\n\
                 [drive]\ncontrol = \"load\"\nsegments = [{ kind = \"step\", to = \"10 N\", duration = \"50 s\" }, \
                 { kind = \"step\", to = \"2 N\", duration = \"50 s\" }]\n\
                 [output]\nprofiles_at = [\"10 s\", \"60 s\"]\nfields_at = [\"10 s\", \"60 s\"]\nfield_cells = 100\n";
-    let page = page(&folder, text, 0);
+    let (page, place) = page(text, 0);
     assert_eq!(nesting_problems(&page), Vec::<String>::new());
     assert_eq!(page.matches("<script").count(), 2);
     let data = data(&page);
-    let table = read(folder.path(), "history.csv");
-    let loads: Vec<f64> = table
-        .lines()
-        .skip(1)
-        .map(|line| line.split(',').nth(1).unwrap().parse().unwrap())
-        .collect();
-    let shown = data["history"]["load_n"].as_array().unwrap();
+    let loads = place.table("out/history.csv").numbers("load_n");
     // Short enough to be on the page as it is, both sides of the jumps too.
-    let shown: Vec<f64> = shown.iter().map(|v| v.as_f64().unwrap()).collect();
+    let shown = numbers(&data["history"]["load_n"]);
     assert_eq!(shown, loads);
     assert_eq!(data["profiles"].as_array().unwrap().len(), 2);
     for field in data["fields"].as_array().unwrap() {
         assert_eq!(field["cells_x"], 50);
         assert_eq!(field["pressure_pa"].as_array().unwrap().len(), 2500);
     }
-    let shown = between(
-        &page,
-        "aria-labelledby=\"file-heading\"><code>",
-        "</code></pre>",
-    );
-    assert_eq!(unescaped(shown), read(folder.path(), "resolved.toml"));
+    assert_eq!(shown_file(&page), place.text("out/resolved.toml"));
 }
 
 #[test]
 fn materials_and_fits_have_pages_with_the_block_that_gives_them_again() {
-    let folder = TempDir::new().unwrap();
     let table: String = (0..40)
         .map(|k| 10_f64.powf(-1.0 + 0.1 * f64::from(k)))
         .map(|t| format!("{t:e},{:e}\n", 1e-9 * (2.0 - (-t / 5.0).exp())))
         .collect();
-    let file = write(
-        &folder,
+    let place = Place::with(
         "creep.csv",
         &format!("time_s,creep_compliance_per_pa\n{table}"),
     );
-    let out = folder.path().join("out");
-    let fit = [
-        "material",
-        "fit",
-        &file,
-        "--quantity",
-        "creep",
-        "--modulus",
-        "shear",
-        "--poisson-ratio",
-        "0.4",
-    ];
-    for (arguments, curves) in [(&["material", "show", "pmma"][..], 1), (&fit[..], 2)] {
-        // A folder belongs to one command.
-        let _ = fs::remove_dir_all(&out);
-        program()
-            .args(arguments)
-            .arg("--out")
-            .arg(&out)
-            .assert()
-            .success();
-        let page = read(folder.path(), "index.html");
+    let fit =
+        "material fit creep.csv --quantity creep --modulus shear --poisson-ratio 0.4 --out fit";
+    for (line, out, curves) in [
+        ("material show pmma --out show", "show", 1),
+        (fit, "fit", 2),
+    ] {
+        place.done(line);
+        let page = place.text(&format!("{out}/index.html"));
         assert_stands_alone(&page);
         assert_eq!(data(&page)["curves"].as_array().unwrap().len(), curves);
-        let block = unescaped(between(
-            &page,
-            "aria-labelledby=\"file-heading\"><code>",
-            "</code></pre>",
-        ));
-        let again = write(&folder, "material.toml", &block);
-        program()
-            .args(["material", "show", &again])
-            .assert()
-            .success();
+        place.put("material.toml", shown_file(&page));
+        place.done("material show material.toml");
     }
 }
 
 /// Two sweeps of these frequencies on so many steps, compared; the page, and whether they are the same.
-fn compared(folder: &TempDir, sweeps: [(&str, usize); 2], more: &[&str]) -> (String, bool) {
-    let mut command = program();
-    command.arg("compare");
+fn compared(sweeps: [(&str, usize); 2], more: &str) -> (String, bool, Place) {
+    let place = Place::new();
     for (k, (frequencies, steps)) in sweeps.into_iter().enumerate() {
-        let text = sweep_file(
-            "\"a <b>\"",
-            frequencies,
-            &format!("[cycle]\nsteps = {steps}\n"),
+        let steps = format!("[cycle]\nsteps = {steps}\n");
+        place.put(
+            &format!("{k}.toml"),
+            sweep_file("\"a <b>\"", frequencies, &steps),
         );
-        let file = write(folder, &format!("{k}.toml"), &text);
-        let out = folder.path().join(k.to_string());
-        program()
-            .args(["sweep", &file, "--quiet", "--no-figures", "--out"])
-            .arg(&out)
-            .assert()
-            .success();
-        command.arg(out);
+        place.done(&format!("sweep {k}.toml --quiet --no-figures --out {k}"));
     }
-    let out = folder.path().join("out");
-    let output = command.args(more).arg("--out").arg(&out).output().unwrap();
-    let code = output.status.code();
-    assert!(matches!(code, Some(0 | 4)), "{code:?}");
-    (read(folder.path(), "index.html"), code == Some(0))
+    let code = place.run(&format!("compare 0 1 {more} --out out")).code;
+    assert!(matches!(code, 0 | 4), "{code}");
+    (place.text("out/index.html"), code == 0, place)
 }
 
 #[test]
 fn a_page_of_a_comparison_says_the_verdict_and_holds_both_results() {
-    let folder = TempDir::new().unwrap();
     let frequencies = r#"["0.004 rad/s", "0.008 rad/s", "0.02 rad/s"]"#;
-    let (page, same) = compared(&folder, [(frequencies, 200), (frequencies, 100)], &[]);
+    let (page, same, place) = compared([(frequencies, 200), (frequencies, 100)], "");
     assert!(same);
     assert_stands_alone(&page);
     assert!(page.contains("<strong>The results are the same within the tolerances.</strong>"));
     assert!(page.contains("  - steps = 200\n  + steps = 100\n"));
     let data = data(&page);
-    assert_eq!(data["csv"], read(folder.path(), "comparison.csv"));
+    assert_eq!(data["csv"], place.text("out/comparison.csv"));
     // Every value is the one in the table it comes from.
     for (k, side) in ["baseline", "new"].into_iter().enumerate() {
-        let mut table =
-            csv::Reader::from_path(folder.path().join(format!("{k}/sweep.csv"))).unwrap();
-        let heads = table.headers().unwrap().clone();
-        let rows: Vec<csv::StringRecord> = table.records().map(|row| row.unwrap()).collect();
+        let table = place.table(&format!("{k}/sweep.csv"));
         for column in data["columns"].as_array().unwrap() {
             let name = column["name"].as_str().unwrap();
-            let place = heads.iter().position(|head| head == name).unwrap();
-            for (row, value) in rows.iter().zip(column[side].as_array().unwrap()) {
-                assert_eq!(row[place].parse().ok(), value.as_f64(), "{side} {name}");
+            for (cell, value) in table
+                .found(name)
+                .into_iter()
+                .zip(column[side].as_array().unwrap())
+            {
+                assert_eq!(cell, value.as_f64(), "{side} {name}");
             }
         }
-        let summary = fs::read(folder.path().join(format!("{k}/summary.json"))).unwrap();
-        let summary: Value = serde_json::from_slice(&summary).unwrap();
+        let summary = place.json(&format!("{k}/summary.json"));
         assert!(page.contains(summary["sweep_hash"].as_str().unwrap()));
     }
 }
 
 #[test]
 fn a_page_of_a_comparison_names_what_differs() {
-    let folder = TempDir::new().unwrap();
     let sweeps = [
         (r#"["0.004 rad/s", "0.008 rad/s"]"#, 200),
         (r#"["0.008 rad/s", "0.02 rad/s"]"#, 100),
     ];
-    let (page, same) = compared(&folder, sweeps, &["--tolerance", "dissipated_j=1e-9"]);
+    let (page, same, _) = compared(sweeps, "--tolerance dissipated_j=1e-9");
     assert!(!same);
     assert_stands_alone(&page);
     for said in [
@@ -386,17 +314,13 @@ fn a_page_of_a_comparison_names_what_differs() {
 
 #[test]
 fn two_tables_alone_have_a_page_without_origin() {
-    let folder = TempDir::new().unwrap();
-    let baseline = Path::new(env!("CARGO_MANIFEST_DIR")).join("reports/baseline/pmma/sweep.csv");
-    let out = folder.path().join("out");
-    program()
-        .arg("compare")
-        .args([&baseline, &baseline])
-        .arg("--out")
-        .arg(&out)
-        .assert()
-        .success();
-    let page = read(folder.path(), "index.html");
+    let baseline = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/reports/baseline/pmma/sweep.csv"
+    );
+    let place = Place::new();
+    place.done(&format!("compare '{baseline}' '{baseline}' --out out"));
+    let page = place.text("out/index.html");
     assert_stands_alone(&page);
     assert!(page.contains("What was asked cannot be compared"));
     assert!(!page.contains("The input, to run again"));

@@ -9,21 +9,29 @@ use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use crate::html::{assert_stands_alone, data};
-use crate::program::program;
-use predicates::str::contains;
-use tempfile::TempDir;
+use crate::program::{Place, Table};
 
 /// All figures, made once for all tests of this file by the command itself.
-static MADE: LazyLock<TempDir> = LazyLock::new(|| {
-    let folder = TempDir::new().unwrap();
-    program()
-        .args(["reproduce", "--quiet", "--out"])
-        .arg(folder.path())
-        .assert()
-        .success()
-        .stdout("");
-    folder
+static MADE: LazyLock<Place> = LazyLock::new(|| {
+    let place = Place::new();
+    let run = place.done("reproduce --quiet --out .");
+    assert_eq!(run.stdout, "");
+    place
 });
+
+/// Those that are computed.
+const FIGURES: [&str; 11] = ["1", "4", "5", "6", "7", "8", "9", "10", "11", "12", "13"];
+
+/// The files that the figures are computed from, without what the paper states.
+fn behind_figures() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sweeps/spinu-2018");
+    let files = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    files
+        .filter(|path| !path.ends_with("claims.toml"))
+        .collect()
+}
 
 fn committed() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("reports/spinu-2018")
@@ -37,20 +45,19 @@ fn names(folder: &Path) -> BTreeSet<String> {
     names.filter(|name| name != ".contact-dma.lock").collect()
 }
 
-/// The rows of a claim table by the names of its columns.
-fn claims() -> Vec<std::collections::BTreeMap<String, String>> {
-    let mut table = csv::Reader::from_path(MADE.path().join("claims.csv")).unwrap();
-    table.deserialize().map(|row| row.unwrap()).collect()
+/// The numbers of the paper that are claimed.
+fn claims() -> Table {
+    MADE.table("claims.csv")
 }
 
 #[test]
 fn what_is_committed_is_what_the_command_writes() {
-    let (made, kept) = (names(MADE.path()), names(&committed()));
+    let (made, kept) = (names(&MADE.path("")), names(&committed()));
     assert_eq!(made, kept);
-    // Eleven figures in four files each, the claims, the text, the page; and their list, which names the build that made them.
-    assert_eq!(made.len(), 48);
+    // Four files of each figure, the claims, the text, the page; and their list, which names the build that made them.
+    assert_eq!(made.len(), 4 * FIGURES.len() + 4);
     for name in made.into_iter().filter(|name| name != "run.json") {
-        let found = fs::read(MADE.path().join(&name)).unwrap();
+        let found = MADE.bytes(&name);
         let expected = fs::read(committed().join(&name)).unwrap();
         if found != expected {
             let [found, expected] =
@@ -65,104 +72,74 @@ fn what_is_committed_is_what_the_command_writes() {
 #[test]
 fn every_claim_is_as_accurate_as_it_must_be() {
     let claims = claims();
-    let mut checked = 0;
-    for claim in &claims {
-        assert_eq!(claim["within_accuracy"], "yes", "{claim:#?}");
-        checked += usize::from(!claim["half_space"].is_empty());
-    }
+    let mut accurate = claims.cells("within_accuracy").into_iter();
+    assert!(accurate.all(|cell| cell == "yes"), "{claims:#?}");
     // Every number but the constants of the creep function is computed on the half-space.
+    let on_cells = claims.cells("half_space");
+    let checked = on_cells.iter().filter(|cell| !cell.is_empty()).count();
     assert!(checked + 6 >= claims.len() && checked > 80, "{checked}");
 }
 
 #[test]
 fn the_page_holds_every_figure_and_every_claim_and_stands_alone() {
-    let page = fs::read_to_string(MADE.path().join("index.html")).unwrap();
+    let page = MADE.text("index.html");
     assert!(page.len() < 1_500_000, "{}", page.len());
     assert_stands_alone(&page);
     let claims = claims();
     assert_eq!(page.matches("<tr data-verdict=").count(), claims.len());
-    let table = fs::read_to_string(MADE.path().join("claims.csv")).unwrap();
-    assert_eq!(data(&page)["csv"], table);
-    assert_eq!(page.matches("<svg ").count(), 11);
-    for claim in &claims {
-        let row = format!("<tr data-verdict=\"{}\">", claim["verdict"]);
-        assert!(page.contains(&row));
+    assert_eq!(data(&page)["csv"], MADE.text("claims.csv"));
+    assert_eq!(page.matches("<svg ").count(), FIGURES.len());
+    for verdict in claims.cells("verdict") {
+        assert!(page.contains(&format!("<tr data-verdict=\"{verdict}\">")));
     }
     // Every file behind the figures can be downloaded.
-    assert_eq!(page.matches(" download=\"figure-").count(), 17);
+    let downloads = page.matches(" download=\"figure-").count();
+    assert_eq!(downloads, behind_figures().len());
 }
 
 #[test]
 fn every_computed_figure_has_claims() {
-    let figures: BTreeSet<String> = claims()
-        .iter()
-        .map(|claim| claim["figure"].clone())
-        .collect();
-    let expected = [1, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13].map(|n: u8| n.to_string());
-    assert_eq!(figures, BTreeSet::from(expected));
+    let claims = claims();
+    let figures: BTreeSet<&str> = claims.cells("figure").into_iter().collect();
+    assert_eq!(figures, BTreeSet::from(FIGURES));
 }
 
 #[test]
 fn what_disagrees_with_the_paper_is_known() {
-    let disagreeing: Vec<(String, String)> = claims()
+    let claims = claims();
+    let all = claims
+        .cells("figure")
         .into_iter()
-        .filter(|claim| claim["verdict"] == "disagrees")
-        .map(|claim| (claim["figure"].clone(), claim["quantity"].clone()))
-        .collect();
-    let figures: Vec<&str> = disagreeing
-        .iter()
-        .map(|(figure, _)| figure.as_str())
-        .collect();
+        .zip(claims.cells("verdict"));
+    let disagreeing = all.filter(|(_, verdict)| *verdict == "disagrees");
+    let figures: Vec<&str> = disagreeing.map(|(figure, _)| figure).collect();
     // The frequency in the caption of figure 9; the loss that only decays in figure 12; the four numbers of figure 13.
-    assert_eq!(
-        figures,
-        ["9", "12", "13", "13", "13", "13"],
-        "{disagreeing:?}"
-    );
+    assert_eq!(figures, ["9", "12", "13", "13", "13", "13"], "{claims:?}");
 }
 
 #[test]
 fn one_figure_alone_is_the_same_figure() {
-    let folder = TempDir::new().unwrap();
-    program()
-        .args(["reproduce", "--figure", "1", "--threads", "1", "--out"])
-        .arg(folder.path())
-        .assert()
-        .success()
-        .stdout(contains("1 figures: 7 numbers of the paper (7 agree)"));
-    let expected = [
-        "README.md",
-        "claims.csv",
-        "figure-01.caption.txt",
-        "figure-01.csv",
-        "figure-01.png",
-        "figure-01.svg",
-        "index.html",
-        "run.json",
-    ];
-    assert_eq!(
-        names(folder.path()),
-        BTreeSet::from(expected.map(str::to_owned))
-    );
-    for name in &expected[2..6] {
-        let [found, kept] = [folder.path(), &committed()].map(|f| fs::read(f.join(name)).unwrap());
-        assert!(found == kept, "{name}");
+    let place = Place::new();
+    let run = place.done("reproduce --figure 1 --threads 1 --out .");
+    run.says(&["1 figures: 7 numbers of the paper (7 agree)"]);
+    let figure = ["caption.txt", "csv", "png", "svg"].map(|ending| format!("figure-01.{ending}"));
+    let rest = ["README.md", "claims.csv", "index.html", "run.json"].map(str::to_owned);
+    let expected = figure.iter().chain(&rest).cloned().collect();
+    assert_eq!(names(&place.path("")), expected);
+    for name in figure {
+        assert!(
+            place.bytes(&name) == fs::read(committed().join(&name)).unwrap(),
+            "{name}"
+        );
     }
 }
 
 #[test]
 fn the_page_shows_its_figures_in_whatever_form_they_are_written() {
-    let folder = TempDir::new().unwrap();
-    program()
-        .args(["reproduce", "--figure", "1", "--quiet", "--out"])
-        .arg(folder.path())
-        .args(["--set", "figures.formats=[\"pdf\"]"])
-        .assert()
-        .success();
-    assert!(names(folder.path()).contains("figure-01.pdf"));
-    assert!(!names(folder.path()).contains("figure-01.svg"));
-    let page = fs::read_to_string(folder.path().join("index.html")).unwrap();
-    assert!(page.contains("<svg"));
+    let place = Place::new();
+    place.done("reproduce --figure 1 --quiet --out . --set 'figures.formats=[\"pdf\"]'");
+    assert!(place.has("figure-01.pdf") && !place.has("figure-01.svg"));
+    assert!(place.text("index.html").contains("<svg"));
 }
 
 #[test]
@@ -172,32 +149,24 @@ fn a_figure_that_is_not_computed_is_refused_with_those_that_are() {
         ("14", "figures 1 to 13"),
         ("all", "computed"),
     ] {
-        let folder = TempDir::new().unwrap();
-        let out = folder.path().join("out");
-        program()
-            .args(["reproduce", "--figure", number, "--out"])
-            .arg(&out)
-            .assert()
-            .code(2)
-            .stdout("")
-            .stderr(contains(why))
-            .stderr(contains("1, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13"));
-        assert!(!out.exists());
+        let place = Place::new();
+        let told = place.refused(&format!("reproduce --figure {number} --out out"));
+        assert!(
+            told.contains(why) && told.contains(&FIGURES.join(", ")),
+            "{told}"
+        );
+        assert!(!place.has("out"));
     }
 }
 
 #[test]
 fn every_file_behind_a_figure_says_what_it_asks() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("sweeps/spinu-2018");
-    let mut files = names(&folder);
-    assert!(files.remove("claims.toml"), "what the paper states");
-    assert_eq!(files.len(), 17);
-    for name in files {
-        let text = fs::read_to_string(folder.join(&name)).unwrap();
+    let files = behind_figures();
+    assert!(files.len() > FIGURES.len());
+    for path in files {
+        let text = fs::read_to_string(&path).unwrap();
         let first = text.lines().next().unwrap();
-        assert!(
-            first.starts_with("# ") && first.ends_with('?'),
-            "{name}: {first}"
-        );
+        let is_question = first.starts_with("# ") && first.ends_with('?');
+        assert!(is_question, "{}: {first}", path.display());
     }
 }

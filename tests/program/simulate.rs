@@ -2,15 +2,9 @@
 
 #![cfg(feature = "cli")]
 
-use crate::program::{program, write};
+use crate::program::{Place, npy};
 use std::f64::consts::PI;
-use std::fs;
-use std::path::Path;
 use std::sync::atomic::AtomicBool;
-
-use predicates::prelude::PredicateBooleanExt;
-use predicates::str::contains;
-use tempfile::TempDir;
 
 use contact_dma::contact::surface::Surface;
 use contact_dma::contact::{Engine, Prescribed};
@@ -393,12 +387,8 @@ fn the_domain_of_a_fluid_holds_its_contact_and_a_wrong_guess_is_mended() {
 #[test]
 fn an_indenter_whose_contact_is_a_ring_is_refused_on_springs_with_advice_and_solved_on_the_half_space()
  {
-    let folder = TempDir::new().unwrap();
-    write(
-        &folder,
-        "ring.csv",
-        "r_m,gap_m\n0,2e-5\n1e-3,0\n2e-3,2e-5\n3e-3,8e-5\n5e-3,3.2e-4\n",
-    );
+    let ring = "r_m,gap_m\n0,2e-5\n1e-3,0\n2e-3,2e-5\n3e-3,8e-5\n5e-3,3.2e-4\n";
+    let place = Place::with("ring.csv", ring);
     let text = ZENER.replace(
         "shape = \"sphere\"\nradius = \"10 mm\"",
         "shape = \"profile\"\nfile = \"ring.csv\"",
@@ -406,32 +396,30 @@ fn an_indenter_whose_contact_is_a_ring_is_refused_on_springs_with_advice_and_sol
         "load",
         "{ kind = \"step\", to = \"5 mN\", duration = \"5 s\" }",
     ) + "[output]\nprofiles_at = [\"5 s\"]\n";
-    let file = write(&folder, "ring.toml", &text);
-    let out = folder.path().join("out");
-    let simulate = |engine: &[&str]| {
-        let mut command = program();
-        command
-            .args(["simulate", &file, "--set", "solver.cells=48", "--out"])
-            .arg(&out)
-            .args(engine);
-        command.assert()
-    };
-    simulate(&["--set", "solver.engine=axisymmetric"])
-        .code(2)
-        .stderr(contains("not convex").and(contains("set solver.engine = \"half-space\"")));
-    assert!(!out.exists());
+    place.put("ring.toml", text);
+    let run = "simulate ring.toml --set solver.cells=48 --out out";
+    let told = place.refused(&format!("{run} --set solver.engine=axisymmetric"));
+    assert!(told.contains("not convex"), "{told}");
+    assert!(
+        told.contains("set solver.engine = \"half-space\""),
+        "{told}"
+    );
+    assert!(!place.has("out"));
     // Left to itself the program takes the half-space engine. The middle stays out of contact.
-    simulate(&[]).success();
-    let profile = fs::read_to_string(out.join("profiles/0.csv")).unwrap();
+    place.done(run);
+    let profile = place.table("out/profiles/0.csv");
     let mut largest = (0.0, 0.0);
-    for line in profile.lines().filter(|line| line.starts_with("x,")) {
-        let cell = |k: usize| line.split(',').nth(k).unwrap().parse::<f64>().unwrap();
-        let (x_m, pressure_pa, gap_m) = (cell(1).abs(), cell(2), cell(4));
-        if x_m < 3e-4 {
-            assert!(pressure_pa == 0.0 && gap_m > 1e-6, "{line}");
+    for row in 0..profile.len() {
+        let [x_m, pressure_pa, gap_m] =
+            ["position_m", "pressure_pa", "gap_m"].map(|column| profile.number(row, column));
+        if profile.cells("line")[row] != "x" {
+            continue;
+        }
+        if x_m.abs() < 3e-4 {
+            assert!(pressure_pa == 0.0 && gap_m > 1e-6, "{x_m}");
         }
         if pressure_pa > largest.1 {
-            largest = (x_m, pressure_pa);
+            largest = (x_m.abs(), pressure_pa);
         }
     }
     assert!((0.8e-3..1.2e-3).contains(&largest.0), "{largest:?}");
@@ -440,54 +428,33 @@ fn an_indenter_whose_contact_is_a_ring_is_refused_on_springs_with_advice_and_sol
 // ---------------------------------------------------------------------------------------------------------------------
 // Sweeps under approach control
 
-/// The rows of a sweep's table as (name of column, text).
-fn sweep_table(text: &str) -> Vec<std::collections::HashMap<String, String>> {
-    let folder = TempDir::new().unwrap();
-    let file = folder.path().join("sweep.toml");
-    fs::write(&file, text).unwrap();
-    let out = folder.path().join("out");
-    program()
-        .args(["sweep", "--quiet", "--out"])
-        .args([&out, &file])
-        .assert()
-        .success();
-    let table = fs::read_to_string(out.join("sweep.csv")).unwrap();
-    let rows = csv::Reader::from_reader(table.as_bytes());
-    rows.into_deserialize().map(|row| row.unwrap()).collect()
-}
-
 #[test]
 fn the_loss_of_a_flat_punch_under_an_imposed_approach_is_that_of_the_complex_modulus() {
-    let sweep = |drive: &str| {
-        let material = ZENER.replace(
-            "shape = \"sphere\"\nradius = \"10 mm\"",
-            "shape = \"flat-punch\"\nradius = \"1 mm\"",
-        );
-        let rest = "[sweep]\nangular_frequency = [\"0.03 rad/s\", \"0.2 rad/s\", \"2 rad/s\"]\n\
-                    [cycle]\nsteps = 200\ntolerance = 1e-6\n[solver]\nsprings = 20\n";
-        sweep_table(&format!("{material}[drive]\n{drive}\n{rest}"))
-    };
+    let material = ZENER.replace(
+        "shape = \"sphere\"\nradius = \"10 mm\"",
+        "shape = \"flat-punch\"\nradius = \"1 mm\"",
+    );
+    let rest = "[sweep]\nangular_frequency = [\"0.03 rad/s\", \"0.2 rad/s\", \"2 rad/s\"]\n\
+                [cycle]\nsteps = 200\ntolerance = 1e-6\n[solver]\nsprings = 20\n";
+    let place = Place::new();
+    let sweep = |drive: &str| place.swept(&format!("{material}[drive]\n{drive}\n{rest}"));
     let amplitude_m = 2e-6;
     let approached = sweep("control = \"approach\"\nmean = \"10 um\"\namplitude = \"2 um\"");
-    for row in &approached {
-        let value = |name: &str| row[name].parse::<f64>().unwrap();
-        let omega = value("angular_frequency_rad_per_s");
+    for row in 0..approached.len() {
+        let omega = approached.number(row, "angular_frequency_rad_per_s");
         // 1/C* of C* = C_0 (1 + 1/(1 + i omega tau)), and loss = pi delta_A^2 2 a Im(1/C*).
         let x = omega * TAU_S;
         let (re, im) = (1.0 + 1.0 / (1.0 + x * x), -x / (1.0 + x * x));
         let modulus_im = -im / (re * re + im * im) / COMPLIANCE;
         let exact = PI * amplitude_m * amplitude_m * 2.0 * 1e-3 * modulus_im;
-        let loss = value("energy_loss_j");
+        let loss = approached.number(row, "energy_loss_j");
         // Second order in 200 steps per cycle.
         assert!((loss / exact - 1.0).abs() < 2e-4, "{omega}: {loss} {exact}");
         // Imposing the load amplitude that this approach takes dissipates the same.
         let stiffness = 2.0 * 1e-3 / COMPLIANCE / re.hypot(im);
         let load_n = stiffness * amplitude_m;
         let loaded = sweep(&format!("mean = \"0.04 N\"\namplitude = \"{load_n} N\""));
-        let twin = loaded
-            .iter()
-            .find(|r| r["angular_frequency_rad_per_s"] == row["angular_frequency_rad_per_s"]);
-        let twin: f64 = twin.unwrap()["energy_loss_j"].parse().unwrap();
+        let twin = loaded.number(row, "energy_loss_j");
         assert!((twin / loss - 1.0).abs() < 4e-4, "{omega}: {twin} {loss}");
     }
 }
@@ -496,23 +463,16 @@ fn the_loss_of_a_flat_punch_under_an_imposed_approach_is_that_of_the_complex_mod
 fn an_indenter_that_leaves_the_surface_in_each_cycle_has_a_loss_too() {
     let drive = "[drive]\ncontrol = \"approach\"\nmean = \"20 um\"\namplitude = \"60 um\"\n";
     let rest = "[sweep]\nangular_frequency = [\"0.2 rad/s\"]\n[cycle]\nsteps = 100\n";
-    let springs = sweep_table(&format!("{ZENER}{drive}{rest}"));
     let cells = "[solver]\nengine = \"half-space\"\ncells = 48\n";
-    let cells = sweep_table(&format!("{ZENER}{drive}{rest}{cells}"));
-    let value = |row: &std::collections::HashMap<String, String>, name: &str| -> f64 {
-        row[name].parse().unwrap()
-    };
-    for row in [&springs[0], &cells[0]] {
-        assert_eq!(value(row, "contact_radius_min_m"), 0.0);
-        assert!(value(row, "energy_loss_j") > 0.0);
-        assert!((value(row, "approach_min_m") + 40e-6).abs() < 1e-9);
-    }
-    let (a, b) = (
-        value(&springs[0], "energy_loss_j"),
-        value(&cells[0], "energy_loss_j"),
-    );
+    let [a, b] = ["", cells].map(|solver| {
+        let table = Place::new().swept(&format!("{ZENER}{drive}{rest}{solver}"));
+        let value = |name: &str| table.number(0, name);
+        assert_eq!(value("contact_radius_min_m"), 0.0);
+        assert!((value("approach_min_m") + 40e-6).abs() < 1e-9);
+        value("energy_loss_j")
+    });
     // 48 cells.
-    assert!((a / b - 1.0).abs() < 5e-3, "{a} {b}");
+    assert!(a > 0.0 && (a / b - 1.0).abs() < 5e-3, "{a} {b}");
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -547,67 +507,45 @@ springs = 100
 
 #[test]
 fn a_scenario_prints_its_end_and_leaves_every_file() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "small.toml", SMALL);
-    let assert = program()
-        .current_dir(folder.path())
-        .args(["simulate", &file])
-        .assert()
-        .success()
-        .stdout(contains("Results in reports/small").and(contains("time steps")));
-    let stdout = String::from_utf8_lossy(&assert.get_output().stdout).into_owned();
+    let place = Place::with("small.toml", SMALL);
+    let run = place.done("simulate small.toml");
+    let stdout = run.stdout.clone();
     assert!(
         stdout.lines().all(|line| line.chars().count() <= 80),
         "{stdout}"
     );
-    let out = folder.path().join("reports/small");
-    let history = fs::read_to_string(out.join("history.csv")).unwrap();
+    run.says(&["Results in reports/small", "time steps", "± "]);
+    let read = |name: &str| place.text(&format!("reports/small/{name}"));
+    let history = read("history.csv");
     assert!(history.starts_with(
         "time_s,load_n,approach_m,contact_radius_m,contact_area_m2,peak_pressure_pa,\
          load_error_n,approach_error_m,contact_radius_error_m,peak_pressure_error_pa\n0e0,1e1,"
     ));
-    assert!(stdout.contains("± "), "{stdout}");
     // Of some load that is prescribed, rounding; none of the rest is empty.
     let empty = |line: &str| line.split(',').any(str::is_empty);
     assert!(!history.lines().any(empty), "{history}");
-    let profile = fs::read_to_string(out.join("profiles/1.csv")).unwrap();
+    let profile = read("profiles/1.csv");
     assert!(profile.starts_with("radius_m,pressure_pa,displacement_m,gap_m\n0e0,"));
-    let index = fs::read_to_string(out.join("profiles/index.csv")).unwrap();
+    let index = read("profiles/index.csv");
     assert!(index.lines().nth(2).unwrap().starts_with("1,2.5e1,2e0,"));
-    for name in [
-        "history.svg",
-        "history@2x.png",
-        "profiles.svg",
-        "profiles.png",
-        "profiles.csv",
-    ] {
-        assert!(out.join(name).is_file(), "{name} is missing");
+    for name in "history.svg history@2x.png profiles.svg profiles.png profiles.csv".split(' ') {
+        assert!(place.has(&format!("reports/small/{name}")), "{name}");
     }
-    let summary = fs::read_to_string(out.join("summary.json")).unwrap();
-    assert!(summary.contains("\"status\": \"done\""));
+    assert!(read("summary.json").contains("\"status\": \"done\""));
 }
 
 #[test]
 fn errors_are_left_out_where_nobody_asks_for_them_and_change_no_row() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "small.toml", SMALL);
-    let history = |out: &str, more: &[&str]| {
-        let out = folder.path().join(out);
-        let mut command = program();
-        command
-            .args(["simulate", &file, "--quiet", "--out"])
-            .arg(&out);
-        command.args(more).assert().success();
-        let resolved = fs::read_to_string(out.join("resolved.toml")).unwrap();
+    let place = Place::with("small.toml", SMALL);
+    let history = |out: &str, more: &str| {
+        place.done(&format!("simulate small.toml --quiet --out {out} {more}"));
+        let resolved = place.text(&format!("{out}/resolved.toml"));
         assert_eq!(resolved.contains("error_bars = false"), !more.is_empty());
-        fs::read_to_string(out.join("history.csv")).unwrap()
+        place.text(&format!("{out}/history.csv"))
     };
-    let with = history("with", &[]);
-    let without = history("flag", &["--no-error-bars"]);
-    assert_eq!(
-        without,
-        history("key", &["--set", "output.error_bars=false"])
-    );
+    let with = history("with", "");
+    let without = history("flag", "--no-error-bars");
+    assert_eq!(without, history("key", "--set output.error_bars=false"));
     for (with, without) in with.lines().zip(without.lines()).skip(1) {
         let values = without.strip_suffix(",,,,").unwrap();
         assert!(with.starts_with(values) && !with.ends_with(','), "{with}");
@@ -616,31 +554,15 @@ fn errors_are_left_out_where_nobody_asks_for_them_and_change_no_row() {
 
 #[test]
 fn the_resolved_scenario_is_a_scenario_file_with_the_same_results() {
-    let folder = TempDir::new().unwrap();
-    write(
-        &folder,
-        "load.csv",
-        "time_s,load_n\n0,2\n0.1,2.5\n0.1,3\n7,0\n",
-    );
+    let place = Place::with("load.csv", "time_s,load_n\n0,2\n0.1,2.5\n0.1,3\n7,0\n");
     let table = "    { kind = \"table\", file = \"load.csv\" },\n    { kind = \"polynomial\", coefficients = [0, 0.3], duration = \"3 s\" },\n]";
-    let file = write(
-        &folder,
+    place.put(
         "small.toml",
-        &SMALL.replacen("\n]", &format!("\n{table}"), 1),
+        SMALL.replacen("\n]", &format!("\n{table}"), 1),
     );
-    let (first, second) = (folder.path().join("first"), folder.path().join("second"));
-    for (file, out) in [
-        (Path::new(&file), &first),
-        (&first.join("resolved.toml"), &second),
-    ] {
-        let mut command = program();
-        command
-            .arg("simulate")
-            .arg(file)
-            .arg("--quiet")
-            .arg("--out")
-            .arg(out);
-        command.assert().success().stdout("").stderr("");
+    for (file, out) in [("small.toml", "first"), ("first/resolved.toml", "second")] {
+        let run = place.done(&format!("simulate {file} --quiet --out {out}"));
+        assert_eq!(run.stdout + &run.stderr, "");
     }
     for name in [
         "resolved.toml",
@@ -648,93 +570,48 @@ fn the_resolved_scenario_is_a_scenario_file_with_the_same_results() {
         "summary.json",
         "profiles/1.csv",
     ] {
-        let read = |folder: &Path| fs::read_to_string(folder.join(name)).unwrap();
-        assert_eq!(read(&first), read(&second), "{name}");
+        let [first, second] = ["first", "second"].map(|out| place.text(&format!("{out}/{name}")));
+        assert_eq!(first, second, "{name}");
     }
 }
 
 #[test]
 fn fields_are_arrays_for_numpy_and_images_for_paraview() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "small.toml", SMALL);
-    let out = folder.path().join("out");
-    program()
-        .args([
-            "simulate",
-            &file,
-            "--quiet",
-            "--set",
-            "solver.engine=half-space",
-        ])
-        .args([
-            "--set",
-            "solver.cells=24",
-            "--set",
-            "output.fields_at=[\"0 s\", \"20 s\"]",
-            "--out",
-        ])
-        .arg(&out)
-        .assert()
-        .success();
+    let place = Place::with("small.toml", SMALL);
+    place.done(
+        "simulate small.toml --quiet --set solver.engine=half-space --set solver.cells=24 \
+         --set 'output.fields_at=[\"0 s\", \"20 s\"]' --out out",
+    );
+    let spacing = place.table("out/fields/index.csv").number(0, "spacing_x_m");
     for k in 0..2 {
-        let bytes = fs::read(out.join(format!("fields/{k}-pressure_pa.npy"))).unwrap();
-        assert!(bytes.starts_with(b"\x93NUMPY\x01\x00"));
-        let header = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
-        let values: Vec<f64> = bytes[header..]
-            .chunks_exact(8)
-            .map(|b| f64::from_le_bytes(b.try_into().unwrap()))
-            .collect();
+        let values = npy(&place.bytes(&format!("out/fields/{k}-pressure_pa.npy")));
         assert_eq!(values.len(), 24 * 24);
         // The pressure carries the load, and is symmetric.
-        let index = fs::read_to_string(out.join("fields/index.csv")).unwrap();
-        let spacing: f64 = index
-            .lines()
-            .nth(1)
-            .unwrap()
-            .split(',')
-            .nth(7)
-            .unwrap()
-            .parse()
-            .unwrap();
         assert!((values.iter().sum::<f64>() * spacing * spacing - 10.0).abs() < 1e-9);
         assert!((values[24 * 10 + 7] - values[24 * 13 + 16]).abs() < 1e-6 * values[24 * 12 + 12]);
-        let image = fs::read(out.join(format!("fields/{k}.vti"))).unwrap();
+        let image = place.bytes(&format!("out/fields/{k}.vti"));
         assert!(image.starts_with(b"<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\""));
-        assert!(out.join(format!("fields/{k}-gap_m.npy")).is_file());
+        assert!(place.has(&format!("out/fields/{k}-gap_m.npy")));
     }
-    for name in [
-        "pressure-map.svg",
-        "pressure-map.png",
-        "profiles/0.csv",
-        "fields/1-displacement_m.npy",
-    ] {
-        assert!(out.join(name).is_file(), "{name} is missing");
+    for name in "pressure-map.svg pressure-map.png fields/1-displacement_m.npy".split(' ') {
+        assert!(place.has(&format!("out/{name}")), "{name}");
     }
-    let profile = fs::read_to_string(out.join("profiles/0.csv")).unwrap();
+    let profile = place.text("out/profiles/0.csv");
     assert!(profile.starts_with("line,position_m,pressure_pa,displacement_m,gap_m\nx,"));
     assert_eq!(profile.lines().filter(|l| l.starts_with("y,")).count(), 24);
 }
 
 #[test]
 fn results_of_another_scenario_or_sweep_are_replaced_only_when_asked() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "small.toml", SMALL);
-    let simulate = |flags: &[&str]| {
-        let mut command = program();
-        command
-            .current_dir(folder.path())
-            .args(["simulate", &file, "--quiet"]);
-        command.args(flags).assert()
-    };
-    simulate(&[]).success();
-    let history = folder.path().join("reports/small/history.csv");
-    let before = fs::read(&history).unwrap();
-    let other = ["--set", "output.profiles_at=[]"];
-    simulate(&other).code(2).stderr(contains("--force"));
-    assert_eq!(fs::read(&history).unwrap(), before);
-    simulate(&[&other[..], &["--force"]].concat()).success();
-    assert!(!folder.path().join("reports/small/profiles").exists());
-    assert!(!folder.path().join("reports/small/profiles.svg").exists());
+    let place = Place::with("small.toml", SMALL);
+    let run = "simulate small.toml --quiet";
+    place.done(run);
+    let before = place.bytes("reports/small/history.csv");
+    let other = format!("{run} --set output.profiles_at=[]");
+    assert!(place.refused(&other).contains("--force"));
+    assert_eq!(place.bytes("reports/small/history.csv"), before);
+    place.done(&format!("{other} --force"));
+    assert!(!place.has("reports/small/profiles") && !place.has("reports/small/profiles.svg"));
 }
 
 #[test]
@@ -745,35 +622,18 @@ fn a_fluid_has_a_history() {
 
 #[test]
 fn an_approach_history_written_by_one_run_drives_the_next() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "small.toml", SMALL);
-    let out = folder.path().join("out");
-    program()
-        .args(["simulate", &file, "--quiet", "--out"])
-        .arg(&out)
-        .assert()
-        .success();
-    let (head, tail) = (
-        SMALL.split("[drive]").next().unwrap(),
-        "[time]\nstep = \"1 h\"\n[solver]\nsprings = 100\n",
-    );
+    let place = Place::with("small.toml", SMALL);
+    place.done("simulate small.toml --quiet --out out");
+    let head = SMALL.split("[drive]").next().unwrap();
     let again = drive(
         "approach",
         "{ kind = \"table\", file = \"out/history.csv\" }",
     );
-    let file = write(&folder, "again.toml", &format!("{head}{again}{tail}"));
-    let second = folder.path().join("second");
-    program()
-        .args(["simulate", &file, "--quiet", "--out"])
-        .arg(&second)
-        .assert()
-        .success();
-    let loads = |folder: &Path| -> Vec<f64> {
-        let text = fs::read_to_string(folder.join("history.csv")).unwrap();
-        let load = |line: &str| line.split(',').nth(1).unwrap().parse().unwrap();
-        text.lines().skip(1).map(load).collect()
-    };
-    let (first, second) = (loads(&out), loads(&second));
+    let tail = "[time]\nstep = \"1 h\"\n[solver]\nsprings = 100\n";
+    place.put("again.toml", format!("{head}{again}{tail}"));
+    place.done("simulate again.toml --quiet --out second");
+    let [first, second] =
+        ["out", "second"].map(|out| place.table(&format!("{out}/history.csv")).numbers("load_n"));
     assert_eq!(first.len(), second.len());
     for (a, b) in first.iter().zip(&second) {
         // The domains, and with them the springs, differ by their sizing from load and from approach.
@@ -783,22 +643,14 @@ fn an_approach_history_written_by_one_run_drives_the_next() {
 
 #[test]
 fn a_dry_run_tells_steps_and_memory_and_writes_nothing() {
-    let folder = TempDir::new().unwrap();
     let segments = r#"{ kind = "step", to = "10 N", duration = "2 s" }"#;
     let solver = "[solver]\nengine = \"half-space\"\ncells = 1024\n[time]\nstep = \"0.5 s\"\n";
-    let text = maxwell() + &drive("load", segments) + solver;
-    let file = write(&folder, "dry.toml", &text);
-    let out = folder.path().join("out");
-    program()
-        .args(["simulate", &file, "--dry-run", "--out"])
-        .arg(&out)
-        .assert()
-        .success()
-        .stdout(
-            contains("time steps on 1024 x 1024 cells (half-space engine)")
-                .and(contains("for the errors"))
-                .and(contains("Memory: about"))
-                .and(contains(" MB")),
-        );
-    assert!(!out.exists());
+    let place = Place::with("dry.toml", &(maxwell() + &drive("load", segments) + solver));
+    place.done("simulate dry.toml --dry-run --out out").says(&[
+        "time steps on 1024 x 1024 cells (half-space engine)",
+        "for the errors",
+        "Memory: about",
+        " MB",
+    ]);
+    assert!(!place.has("out"));
 }

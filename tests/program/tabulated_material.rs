@@ -2,10 +2,10 @@
 
 #![cfg(feature = "cli")]
 
-use crate::program::{program, write};
-use std::fs;
+use crate::program::{Place, Table, program, write};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
+use std::time::Duration;
 
 use contact_dma::contact::Prescribed;
 use contact_dma::contact::axisymmetric::{Axisymmetric, Edge};
@@ -15,7 +15,7 @@ use contact_dma::indenter::{FlatPunch, Sphere};
 use contact_dma::input::diagnostic::Styling;
 use contact_dma::input::document::Document;
 use contact_dma::input::sweep_file;
-use contact_dma::material::fit::fit;
+use contact_dma::material::fit::fit as fit_of;
 use contact_dma::material::tabulated::Tabulated;
 use contact_dma::material::{
     Material, MaterialFunction, ModulusKind, Relaxation, RelaxationBranch, library,
@@ -26,8 +26,6 @@ use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::SweepPlan;
 use contact_dma::sweep::plan::resolved::{self, resolved_text};
 use contact_dma::sweep::record::material_error;
-use predicates::prelude::*;
-use predicates::str::contains;
 use tempfile::TempDir;
 
 fn pmma() -> Material {
@@ -35,7 +33,7 @@ fn pmma() -> Material {
 }
 
 /// Ten samples per decade, from 0.1 s to 1000 s.
-fn times() -> Vec<f64> {
+fn times_s() -> Vec<f64> {
     (0..=40)
         .map(|i| 0.1 * 10_f64.powf(f64::from(i) / 10.0))
         .collect()
@@ -51,7 +49,7 @@ fn csv(function: MaterialFunction) -> String {
             material.relaxation().unwrap().modulus(t)
         }),
     };
-    let rows: String = times()
+    let rows: String = times_s()
         .iter()
         .map(|&t| format!("{t},{}\n", value(t)))
         .collect();
@@ -89,159 +87,95 @@ modulus = "longitudinal"
 
 #[test]
 fn the_printed_block_is_a_material_block_with_exact_numbers() {
-    let folder = TempDir::new().unwrap();
+    let place = Place::new();
     for (function, quantity) in [
         (MaterialFunction::Creep, "creep"),
         (MaterialFunction::Relaxation, "relaxation"),
     ] {
-        write(folder.path(), "data.csv", &csv(function));
-        let out = folder.path().join(quantity);
-        let assert = program()
-            .current_dir(folder.path())
-            .args(["material", "fit", "data.csv", "--quantity", quantity])
-            .args([
-                "--modulus",
-                "longitudinal",
-                "--poisson-ratio",
-                "0.38",
-                "--out",
-            ])
-            .arg(&out)
-            .assert()
-            .success()
-            .stdout(contains("Fit of 2 branches").and(contains("Misfit relative to the data")))
-            .stdout(contains("the data begin at 0.1 s"));
+        place.put("data.csv", csv(function));
+        let fit = format!(
+            "material fit data.csv --quantity {quantity} --modulus longitudinal --poisson-ratio 0.38"
+        );
+        let written = place.done(&format!("{fit} --out {quantity}"));
         // What goes into a file is printed only where there is none.
-        let printed = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
-        assert!(!printed.contains("[material"), "{printed}");
-        let printed = program()
-            .current_dir(folder.path())
-            .args(["material", "fit", "data.csv", "--quantity", quantity])
-            .args(["--modulus", "longitudinal", "--poisson-ratio", "0.38"])
-            .output()
-            .unwrap();
-        let printed = String::from_utf8(printed.stdout).unwrap();
-        let start = printed.find("# From data.csv").unwrap();
-        let block = &printed[start..];
-        assert_eq!(
-            block,
-            fs::read_to_string(out.join("material.toml")).unwrap()
-        );
+        assert!(!written.stdout.contains("[material"), "{written:?}");
+        written.says(&[
+            "Fit of 2 branches",
+            "Misfit relative to the data",
+            "the data begin at 0.1 s",
+        ]);
+        let printed = place.done(&fit).stdout;
+        let block = &printed[printed.find("# From data.csv").unwrap()..];
+        assert_eq!(block, place.text(&format!("{quantity}/material.toml")));
 
-        let sweep = format!("title = \"pasted\"\n{block}{REST}");
-        let plan = sweep_file::plan(&Document::parse("sweep.toml", &sweep).unwrap()).unwrap();
-        let table = {
-            let rows = csv(function);
-            let rows = rows.lines().skip(1).map(|row| row.split_once(',').unwrap());
-            let (times, values) = rows
-                .map(|(t, v)| (t.parse::<f64>().unwrap(), v.parse::<f64>().unwrap()))
-                .unzip();
-            Tabulated::new(function, pmma().kind(), times, values).unwrap()
-        };
-        let expected = fit(&table, None).unwrap().material(0.38).unwrap();
-        assert_eq!(plan.base.contact.material.creep(), expected.creep());
-        assert_eq!(
-            plan.base.contact.material.relaxation(),
-            expected.relaxation()
-        );
-        assert_eq!(plan.base.contact.material.poisson_ratio(), Some(0.38));
-        for name in [
-            "fit.svg",
-            "fit.png",
-            "fit@2x.png",
-            "fit.csv",
-            "fit-residual.svg",
-        ] {
-            assert!(out.join(name).is_file(), "{name}");
+        let plan = sweep_of(block).unwrap();
+        let table = Table::of(&csv(function));
+        let [times, values] = [0, 1].map(|column| table.numbers(&table.columns[column]));
+        let table = Tabulated::new(function, pmma().kind(), times, values).unwrap();
+        let expected = fit_of(&table, None).unwrap().material(0.38).unwrap();
+        let material = &plan.base.contact.material;
+        assert_eq!(material.creep(), expected.creep());
+        assert_eq!(material.relaxation(), expected.relaxation());
+        assert_eq!(material.poisson_ratio(), Some(0.38));
+        for name in ["fit.svg", "fit.png", "fit@2x.png", "fit-residual.svg"] {
+            assert!(place.has(&format!("{quantity}/{name}")), "{name}");
         }
-        let rows = fs::read_to_string(out.join("fit.csv")).unwrap();
-        assert_eq!(rows.lines().count(), 1 + times().len());
+        let rows = place.table(&format!("{quantity}/fit.csv")).len();
+        assert_eq!(rows, times_s().len());
     }
 }
 
 #[test]
 fn a_sweep_takes_its_material_from_a_table_beside_its_file_and_shows_the_misfit() {
-    let folder = TempDir::new().unwrap();
-    let project = folder.path().join("project");
-    write(
-        project.join("data"),
-        "creep.csv",
-        &csv(MaterialFunction::Creep),
-    );
-    write(
-        &project,
-        "sweep.toml",
-        &format!("title = \"tabulated\"\n{TABLE}{REST}"),
+    let place = Place::new();
+    place.put("project/data/creep.csv", csv(MaterialFunction::Creep));
+    place.put(
+        "project/sweep.toml",
+        format!("title = \"tabulated\"\n{TABLE}{REST}"),
     );
     let library = "[material]\nlibrary = \"pmma\"\n";
-    write(
-        &project,
-        "pmma.toml",
-        &format!("title = \"library\"\n{library}{REST}"),
+    place.put(
+        "project/pmma.toml",
+        format!("title = \"library\"\n{library}{REST}"),
     );
     // From another folder: the path counts from the sweep file.
-    for name in ["sweep", "pmma"] {
-        let assert = program()
-            .current_dir(folder.path())
-            .args(["sweep", &format!("project/{name}.toml")])
-            .args(["--no-figures", "--out", name])
-            .assert()
-            .success();
-        if name == "sweep" {
-            assert.stdout(contains("Fit of 2 branches").and(contains("the data begin at 0.1 s")));
-        }
-    }
-    let loss = |name: &str| -> f64 {
-        let summary = fs::read(folder.path().join(name).join("summary.json")).unwrap();
-        let summary: serde_json::Value = serde_json::from_slice(&summary).unwrap();
+    place.done("sweep project/pmma.toml --no-figures --out pmma");
+    let run = place.done("sweep project/sweep.toml --no-figures --out sweep");
+    run.says(&["Fit of 2 branches", "the data begin at 0.1 s"]);
+    let loss = |name: &str| {
+        let summary = place.json(&format!("{name}/summary.json"));
         summary["peaks"][0]["energy_loss_j"].as_f64().unwrap()
     };
     // The table holds seventeen digits: its fit is the library's material to 1e-12, and marching amplifies nothing.
     assert!((loss("sweep") / loss("pmma") - 1.0).abs() < 1e-9);
     // What is resolved needs no table.
-    let resolved = fs::read_to_string(folder.path().join("sweep/resolved.toml")).unwrap();
+    let resolved = place.text("sweep/resolved.toml");
     assert!(resolved.contains("[material.creep]") && !resolved.contains("creep.csv"));
-
-    program()
-        .current_dir(folder.path())
-        .args(["material", "show", "project/sweep.toml"])
-        .assert()
-        .success()
-        .stdout(contains("Misfit relative to the data").and(contains("E(0) = 2491.44 MPa")));
+    let shown = place.done("material show project/sweep.toml");
+    shown.says(&["Misfit relative to the data", "E(0) = 2491.44 MPa"]);
     // In a flag, the path counts from the working folder.
-    let flag = "material.table.file=project/data/creep.csv";
-    program()
-        .current_dir(folder.path())
-        .args([
-            "sweep",
-            "project/sweep.toml",
-            "--no-figures",
-            "--out",
-            "flag",
-            "--set",
-            flag,
-        ])
-        .assert()
-        .success();
+    place.done("sweep project/sweep.toml --no-figures --out flag --set material.table.file=project/data/creep.csv");
 }
 
 #[test]
 fn a_table_or_a_number_that_no_material_has_is_refused_by_a_fit() {
-    let folder = TempDir::new().unwrap();
-    let fit = |text: &str, poisson_ratio: &str| {
-        write(folder.path(), "data.csv", text);
-        program()
-            .current_dir(folder.path())
-            .args(["material", "fit", "data.csv", "--quantity", "creep"])
-            .args(["--modulus", "shear", "--poisson-ratio", poisson_ratio])
-            .assert()
-            .code(2)
-            .stdout("")
-    };
     let good = csv(MaterialFunction::Creep);
-    fit(&good, "0.7").stderr(contains("Poisson ratio is 0.7"));
-    let mistaken = good.replace("\n1,", "\n0.5,");
-    fit(&mistaken, "0.4").stderr(contains("--> data.csv:12:1").and(contains("must increase")));
+    let fit = |text: &str, poisson_ratio: &str| {
+        let place = Place::with("data.csv", text);
+        let fit = "material fit data.csv --quantity creep --modulus shear --poisson-ratio";
+        place.refused(&format!("{fit} {poisson_ratio}"))
+    };
+    assert!(fit(&good, "0.7").contains("Poisson ratio is 0.7"));
+    let told = fit(&good.replace("\n1,", "\n0.5,"), "0.4");
+    assert!(
+        told.contains("--> data.csv:12:1") && told.contains("must increase"),
+        "{told}"
+    );
+}
+
+/// What a resolved file says.
+fn resolved_plan(text: &str) -> SweepPlan {
+    sweep_file::plan(&Document::parse("resolved.toml", text).unwrap()).unwrap()
 }
 
 /// A sweep of this material under a sphere, or why there is none.
@@ -253,11 +187,11 @@ fn sweep_of(material: &str) -> Result<SweepPlan, String> {
 
 #[test]
 fn a_fluid_among_tables_is_a_solid_where_the_file_says_so() {
-    let values: Vec<String> = times()
+    let values: Vec<String> = times_s()
         .iter()
         .map(|t| format!("{:.3e}", 1e-9 * (1.0 + t / 30.0)))
         .collect();
-    let table = format!("times = {:?}\nvalues = [{}]", times(), values.join(", "));
+    let table = format!("times = {:?}\nvalues = [{}]", times_s(), values.join(", "));
     let fluid = TABLE.replace("file = \"data/creep.csv\"", &table);
     assert!(sweep_of(&fluid).unwrap_err().contains("flow = false"));
     assert!(sweep_of(&format!("{fluid}flow = false\n")).is_ok());
@@ -278,19 +212,17 @@ fn the_window_and_the_alternatives_of_a_series_are_read() {
 fn unfinished() -> String {
     let material = pmma();
     let modulus = |t: f64| material.relaxation().unwrap().modulus(t);
-    let rows = times().into_iter().filter(|t| *t < 101.0);
+    let rows = times_s().into_iter().filter(|t| *t < 101.0);
     let rows: String = rows.map(|t| format!("{t},{:.4e}\n", modulus(t))).collect();
     format!("time_s,relaxation_modulus_pa\n{rows}")
 }
 
 #[test]
 fn the_window_and_the_alternatives_of_a_fit_survive_the_resolved_file() {
-    let folder = TempDir::new().unwrap();
     let table = TABLE.replace("\"creep\"", "\"relaxation\"");
-    write(folder.path(), "data/creep.csv", &unfinished());
-    let text = format!("title = \"x\"\n{table}{REST}");
-    write(folder.path(), "sweep.toml", &text);
-    let document = Document::read(&folder.path().join("sweep.toml")).unwrap();
+    let place = Place::with("sweep.toml", &format!("title = \"x\"\n{table}{REST}"));
+    place.put("data/creep.csv", unfinished());
+    let document = Document::read(&place.path("sweep.toml")).unwrap();
     let plan = sweep_file::plan(&document).unwrap();
     let material = &plan.base.contact.material;
     let (first_s, last_s) = material.origin.measured_window_s.unwrap();
@@ -298,19 +230,17 @@ fn the_window_and_the_alternatives_of_a_fit_survive_the_resolved_file() {
     assert!(material.origin.alternatives.len() >= 2);
     let resolved = resolved_text(&plan);
     assert!(resolved.contains("measured = [") && resolved.contains("[[material.alternative]]"));
-    let again = sweep_file::plan(&Document::parse("resolved.toml", &resolved).unwrap()).unwrap();
+    let again = resolved_plan(&resolved);
+    let of_resolved = &again.base.contact.material;
     assert_eq!(
-        again.base.contact.material.origin.alternatives,
+        of_resolved.origin.alternatives,
         material.origin.alternatives
     );
     assert_eq!(
-        again.base.contact.material.origin.measured_window_s,
+        of_resolved.origin.measured_window_s,
         Some((first_s, last_s))
     );
-    assert_eq!(
-        again.base.contact.material.relaxation(),
-        material.relaxation()
-    );
+    assert_eq!(of_resolved.relaxation(), material.relaxation());
     assert_eq!(resolved_text(&again), resolved);
 }
 
@@ -324,14 +254,14 @@ fn under_a_pressure_the_surface_of_noisy_samples_is_never_displaced_outwards() {
     };
     for function in [MaterialFunction::Creep, MaterialFunction::Relaxation] {
         let material = pmma();
-        let values = times().into_iter().map(|t| {
+        let values = times_s().into_iter().map(|t| {
             let value = match function {
                 MaterialFunction::Creep => material.creep().compliance(t),
                 MaterialFunction::Relaxation => material.relaxation().unwrap().modulus(t),
             };
             value * (1.0 + 0.06 * (uniform() - 0.5))
         });
-        let table = Tabulated::new(function, material.kind(), times(), values.collect()).unwrap();
+        let table = Tabulated::new(function, material.kind(), times_s(), values.collect()).unwrap();
         let contact = table.contact_compliance(0.38).unwrap();
         for rule in [TimeRule::Linear, TimeRule::Constant] {
             // Pressures that come and go, all of them within the steps of the noise.
@@ -396,11 +326,12 @@ fn a_step_load_on_tabulated_pmma_is_the_same_direct_and_fitted_and_both_are_righ
     let compliance = material.contact_compliance().unwrap();
     // Six digits, as data come.
     let rounded = |value: f64| format!("{value:.5e}").parse::<f64>().unwrap();
-    let values = times()
+    let values = times_s()
         .iter()
         .map(|&t| rounded(material.creep().compliance(t)))
         .collect();
-    let table = Tabulated::new(MaterialFunction::Creep, material.kind(), times(), values).unwrap();
+    let table =
+        Tabulated::new(MaterialFunction::Creep, material.kind(), times_s(), values).unwrap();
     let contact = table.contact_compliance(0.38).unwrap();
     let interpolation_error = (1..=3000)
         .map(|i| 0.1 * 10_f64.powf(4.0 * f64::from(i) / 3000.0))
@@ -409,7 +340,7 @@ fn a_step_load_on_tabulated_pmma_is_the_same_direct_and_fitted_and_both_are_righ
             (contact.value(0.0) / compliance.compliance(0.0) - 1.0).abs(),
             f64::max,
         );
-    let fit = fit(&table, None).unwrap();
+    let fit = fit_of(&table, None).unwrap();
     let misfit = fit.report().misfit.largest;
     let fitted = fit.material(0.38).unwrap().contact_compliance().unwrap();
 
@@ -445,14 +376,14 @@ fn a_step_load_on_tabulated_pmma_is_the_same_direct_and_fitted_and_both_are_righ
 fn a_tabulated_relaxation_modulus_goes_into_contact_without_a_fit() {
     let material = pmma();
     let compliance = material.contact_compliance().unwrap();
-    let values = times()
+    let values = times_s()
         .iter()
         .map(|&t| material.relaxation().unwrap().modulus(t))
         .collect();
     let table = Tabulated::new(
         MaterialFunction::Relaxation,
         material.kind(),
-        times(),
+        times_s(),
         values,
     )
     .unwrap();
@@ -596,7 +527,7 @@ fn a_file_of_dynamic_data_becomes_a_material_at_a_temperature_with_replicas() {
     assert_eq!(own.base.contact.material.origin.temperature_k, Some(293.15));
     assert_eq!(own.base.contact.material.origin.replicas.len(), 10);
     let text = resolved_text(&own);
-    let again = sweep_file::plan(&Document::parse("resolved.toml", &text).unwrap()).unwrap();
+    let again = resolved_plan(&text);
     assert_eq!(resolved_text(&again), text);
     // The law of the shift alone, which exports take along, is no part of a sweep.
     assert_eq!(
@@ -657,31 +588,22 @@ fn a_temperature_beyond_the_isotherms_is_warned_of_in_a_resolved_file_too() {
     let said = codes(&outside);
     assert!(said[0].contains("-20 °C to 40 °C: at 60 °C"), "{said:?}");
     let text = resolved_text(&outside);
-    let again = sweep_file::plan(&Document::parse("resolved.toml", &text).unwrap()).unwrap();
+    let again = resolved_plan(&text);
     assert_eq!(codes(&again), said);
-    let reversed = text.replace(
-        "measured_temperatures = [",
-        "measured_temperatures = [\"900 K\", \"800 K\"]#",
-    );
-    let refused = sweep_file::plan(&Document::parse("resolved.toml", &reversed).unwrap());
-    let refused = refused.unwrap_err().render(Styling::Plain);
-    assert!(refused.contains("lowest first"), "{refused}");
 }
 
 #[test]
 fn a_time_of_nothing_is_shown() {
-    let folder = TempDir::new().unwrap();
     for time in ["1e-307", "5e-324", "1e307"] {
         let series = format!(
             "[material]\npoisson_ratio = 0.3\n[material.relaxation]\nmodulus = \"shear\"\nequilibrium = 1e6\n\
              branches = [{{ modulus = 1e6, time = {time} }}, {{ modulus = 1e6, time = 1 }}]\n"
         );
-        write(folder.path(), "series.toml", &series);
+        let place = Place::with("series.toml", &series);
         let mut show = program();
-        show.current_dir(&folder)
-            .args(["material", "show", "series.toml"]);
-        show.timeout(std::time::Duration::from_secs(20));
-        let shown = show.output().unwrap();
+        show.current_dir(place.path(""));
+        show.args(["material", "show", "series.toml"]);
+        let shown = show.timeout(Duration::from_secs(20)).output().unwrap();
         // Shown, or refused for what is beyond the range of a double.
         assert!(
             matches!(shown.status.code(), Some(0..=2)),
@@ -714,197 +636,121 @@ fn isotherms() -> (String, Vec<(f64, f64)>) {
     (table, law)
 }
 
-/// The rows of a table as numbers, empty cells as `None`; its columns.
-fn rows_of(text: &str) -> (Vec<String>, Vec<Vec<Option<f64>>>) {
-    let mut lines = text.lines();
-    let columns = lines
-        .next()
-        .unwrap()
-        .split(',')
-        .map(str::to_owned)
-        .collect();
-    let number = |cell: &str| (!cell.is_empty()).then(|| cell.parse().unwrap());
-    let rows = lines.map(|line| line.split(',').map(number).collect());
-    (columns, rows.collect())
-}
-
-const FIT_DYNAMIC: [&str; 7] = [
-    "material",
-    "fit",
-    "dma.csv",
-    "--quantity",
-    "dynamic",
-    "--modulus",
-    "longitudinal",
-];
+const FIT_DYNAMIC: &str = "material fit dma.csv --quantity dynamic --modulus longitudinal";
 
 #[test]
 fn dynamic_data_become_a_block_tables_figures_and_a_page() {
-    let folder = TempDir::new().unwrap();
     let (table, law) = isotherms();
-    fs::write(folder.path().join("dma.csv"), table).unwrap();
-    program()
-        .current_dir(&folder)
-        .args(FIT_DYNAMIC)
-        .args([
-            "--poisson-ratio",
-            "0.35",
-            "--reference-temperature",
-            "25 °C",
-        ])
-        .args(["--replicas", "3", "--out", "out"])
-        .env("COLUMNS", "80")
-        .assert()
-        .success()
-        .stdout(contains("found from the content").and(contains("Master curve at 25 °C")));
-    let read = |name: &str| fs::read_to_string(folder.path().join("out").join(name)).unwrap();
-    let (columns, prony) = rows_of(&read("prony.csv"));
-    assert_eq!(columns, ["modulus_pa", "time_s"]);
-    assert_eq!(prony[0][1], None);
+    let place = Place::with("dma.csv", &table);
+    let fit = "--poisson-ratio 0.35 --reference-temperature '25 °C' --replicas 3 --out out";
+    let run = place.run_in(&format!("{FIT_DYNAMIC} {fit}"), &[("COLUMNS", "80")]);
+    run.ended(0)
+        .says(&["found from the content", "Master curve at 25 °C"]);
+    let prony = place.table("out/prony.csv");
+    assert_eq!(prony.columns, ["modulus_pa", "time_s"]);
+    let times = prony.found("time_s");
+    assert_eq!(times[0], None);
+    assert!(times[1..].iter().all(|time| *time > Some(0.0)));
     assert!(
-        prony[1..]
+        prony.numbers("modulus_pa")[1..]
             .iter()
-            .all(|row| row[0] > Some(0.0) && row[1] > Some(0.0))
+            .all(|modulus| *modulus > 0.0)
     );
-    let (columns, shifts) = rows_of(&read("shift.csv"));
-    assert_eq!(columns, ["temperature_c", "log10_a_t", "log10_a_t_error"]);
-    assert_eq!(shifts.len(), law.len());
-    for (row, (celsius, log10_a_t)) in shifts.iter().zip(&law) {
-        assert_eq!(row[0], Some(*celsius));
-        // The demand on data with noise of 1 %; these have none.
-        assert!((row[1].unwrap() - log10_a_t).abs() < 0.03, "{row:?}");
-    }
-    let (columns, points) = rows_of(&read("master.csv"));
-    let expected = "angular_frequency_rad_per_s,storage_modulus_pa,loss_modulus_pa,temperature_c,storage_fit_pa,loss_fit_pa";
-    assert_eq!(columns.join(","), expected);
-    assert_eq!(points.len(), 65);
-    for row in &points {
-        // Two branches fit two branches; what is left is what the shifts leave.
-        assert!(
-            (row[4].unwrap() / row[1].unwrap() - 1.0).abs() < 0.03,
-            "{row:?}"
-        );
-    }
-    let summary: serde_json::Value = serde_json::from_str(&read("summary.json")).unwrap();
+    let shifts = place.table("out/shift.csv");
     assert_eq!(
-        (&summary["points"], &summary["isotherms"]),
-        (&65.into(), &5.into())
+        shifts.columns,
+        ["temperature_c", "log10_a_t", "log10_a_t_error"]
     );
+    assert_eq!(shifts.len(), law.len());
+    for (row, (celsius, log10_a_t)) in law.iter().enumerate() {
+        assert_eq!(shifts.number(row, "temperature_c"), *celsius);
+        // The demand on data with noise of 1 %; these have none.
+        let found = shifts.number(row, "log10_a_t");
+        assert!((found - log10_a_t).abs() < 0.03, "{found} {log10_a_t}");
+    }
+    let points = place.table("out/master.csv");
+    let expected = "angular_frequency_rad_per_s,storage_modulus_pa,loss_modulus_pa,temperature_c,storage_fit_pa,loss_fit_pa";
+    assert_eq!(points.columns.join(","), expected);
+    assert_eq!(points.len(), 13 * law.len());
+    for row in 0..points.len() {
+        let of_fit = points.number(row, "storage_fit_pa");
+        // Two branches fit two branches; what is left is what the shifts leave.
+        let off = of_fit / points.number(row, "storage_modulus_pa") - 1.0;
+        assert!(off.abs() < 0.03, "{row}: {off}");
+    }
+    let summary = place.json("out/summary.json");
+    assert_eq!(summary["points"], points.len());
+    assert_eq!(summary["isotherms"], law.len());
     assert_eq!(summary["reference_temperature_c"], 25.0);
     assert_eq!(summary["branches"], prony.len() - 1);
-    for name in [
-        "fit",
-        "fit-residual",
-        "master-curve",
-        "isotherms",
-        "shift-factors",
-        "spectrum",
-        "van-gurp-palmen",
-    ] {
-        let svg = read(&format!("{name}.svg"));
-        assert!(svg.starts_with("<svg"));
-        assert!(read("index.html").contains("<figcaption"));
-        assert!(folder.path().join(format!("out/{name}.png")).exists());
+    for name in
+        "fit fit-residual master-curve isotherms shift-factors spectrum van-gurp-palmen".split(' ')
+    {
+        assert!(place.text(&format!("out/{name}.svg")).starts_with("<svg"));
+        assert!(place.has(&format!("out/{name}.png")));
     }
+    assert!(place.text("out/index.html").contains("<figcaption"));
     // The block is that of a sweep file.
-    let block = read("material.toml");
+    let block = place.text("out/material.toml");
     assert!(
-        block.contains("poisson_ratio = 0.35\nmeasured = [")
-            && block.contains("[material.relaxation]")
+        block.contains("poisson_ratio = 0.35\nmeasured = ["),
+        "{block}"
     );
-    program()
-        .current_dir(&folder)
-        .args(["material", "show", "out/material.toml"])
-        .assert()
-        .success();
+    assert!(block.contains("[material.relaxation]"), "{block}");
+    place.done("material show out/material.toml");
 }
 
 #[test]
 fn shift_factors_that_were_given_have_no_errors_and_without_a_poisson_ratio_the_block_says_so() {
-    let folder = TempDir::new().unwrap();
     let (table, law) = isotherms();
-    fs::write(folder.path().join("dma.csv"), table).unwrap();
-    let factors: String = law
+    let place = Place::with("dma.csv", &table);
+    let factors = law
         .iter()
-        .map(|(celsius, log)| format!("{celsius},{log}\n"))
-        .collect();
-    fs::write(
-        folder.path().join("a.csv"),
-        format!("temperature_c,log10_a_t\n{factors}"),
-    )
-    .unwrap();
-    let run = |more: &[&str]| {
-        let mut command = program();
-        command.current_dir(&folder).args(FIT_DYNAMIC).args(more);
-        command.assert()
-    };
-    let printed = run(&[
-        "--shift",
-        "a.csv",
-        "--out",
-        "out",
-        "--format",
-        "json",
-        "--data-format",
-        "table",
-    ]);
-    let printed = printed.success();
-    let json: serde_json::Value = serde_json::from_slice(&printed.get_output().stdout).unwrap();
+        .map(|(celsius, log)| format!("{celsius},{log}\n"));
+    let factors: String = factors.collect();
+    place.put("a.csv", format!("temperature_c,log10_a_t\n{factors}"));
+    let given = "--shift a.csv --out out --format json --data-format table";
+    let json = place.done(&format!("{FIT_DYNAMIC} {given}")).json();
     assert!(json["shift_factors"][0]["log10_a_t_error"].is_null());
     assert_eq!(json["format"], "table");
     assert_eq!(json["format_found_by"], "as named");
     let block = json["material_toml"].as_str().unwrap();
+    assert!(block.contains("# poisson_ratio = "), "{block}");
+    assert!(!block.contains("\npoisson_ratio"), "{block}");
+    let errors = place.table("out/shift.csv");
     assert!(
-        block.contains("# poisson_ratio = ") && !block.contains("\npoisson_ratio"),
-        "{block}"
+        errors
+            .cells("log10_a_t_error")
+            .iter()
+            .all(|error| error.is_empty())
     );
-    let shifts = fs::read_to_string(folder.path().join("out/shift.csv")).unwrap();
-    let (_, rows) = rows_of(&shifts);
-    assert!(rows.iter().all(|row| row[2].is_none()));
     for (more, words) in [
-        (&["--shift", "b.csv"][..], "there is no such file"),
-        (&["--reference-temperature", "25"], "'25 °C'"),
-        (&["--branches", "0"], "a whole number from 1"),
-        (&["--flow", "true"], "--flow is for creep"),
-        (&["--format", "pyvisco"], "--data-format pyvisco"),
-        (&["--format", "xml"], "invalid value"),
+        ("--shift b.csv", "there is no such file"),
+        ("--reference-temperature 25", "'25 °C'"),
+        ("--branches 0", "a whole number from 1"),
+        ("--flow true", "--flow is for creep"),
+        ("--format pyvisco", "--data-format pyvisco"),
+        ("--format xml", "invalid value"),
     ] {
-        run(more).code(2).stderr(contains(words));
+        let told = place.refused(&format!("{FIT_DYNAMIC} {more}"));
+        assert!(told.contains(words), "{told}");
     }
 }
 
 #[test]
 fn what_is_for_dynamic_data_is_refused_for_creep() {
-    let folder = TempDir::new().unwrap();
-    fs::write(
-        folder.path().join("creep.csv"),
-        csv(MaterialFunction::Creep),
-    )
-    .unwrap();
-    let run = |more: &[&str]| {
-        let mut command = program();
-        let creep = [
-            "material",
-            "fit",
-            "creep.csv",
-            "--quantity",
-            "creep",
-            "--modulus",
-            "shear",
-        ];
-        command.current_dir(&folder).args(creep).args(more).assert()
-    };
-    run(&[]).code(2).stderr(contains("--poisson-ratio <NU>"));
-    let wrong = ["--poisson-ratio", "0.38", "--shift", "wlf"];
-    run(&wrong)
-        .code(2)
-        .stderr(contains("for --quantity dynamic"));
-    run(&["creep.csv", "--poisson-ratio", "0.38"])
-        .code(2)
-        .stderr(contains("one table"));
-    run(&["--poisson-ratio", "0.38", "--out", "out"]).success();
-    let (columns, rows) =
-        rows_of(&fs::read_to_string(folder.path().join("out/prony.csv")).unwrap());
-    assert_eq!(columns, ["modulus_pa", "time_s"]);
-    assert!(rows.len() > 1 && rows[0][1].is_none());
+    let place = Place::with("creep.csv", &csv(MaterialFunction::Creep));
+    let creep = "material fit creep.csv --quantity creep --modulus shear";
+    for (more, words) in [
+        ("", "--poisson-ratio <NU>"),
+        ("--poisson-ratio 0.38 --shift wlf", "for --quantity dynamic"),
+        ("creep.csv --poisson-ratio 0.38", "one table"),
+    ] {
+        let told = place.refused(&format!("{creep} {more}"));
+        assert!(told.contains(words), "{told}");
+    }
+    place.done(&format!("{creep} --poisson-ratio 0.38 --out out"));
+    let prony = place.table("out/prony.csv");
+    assert_eq!(prony.columns, ["modulus_pa", "time_s"]);
+    assert!(prony.len() > 1 && prony.found("time_s")[0].is_none());
 }

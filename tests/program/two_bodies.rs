@@ -2,11 +2,9 @@
 
 #![cfg(feature = "cli")]
 
-use std::collections::HashMap;
-use std::fs;
+use std::collections::HashSet;
 
-use crate::program::{pmma_sweep, program, write};
-use tempfile::TempDir;
+use crate::program::{Place, Table, pmma_sweep, words};
 
 const COARSE: &str = r#"[sweep]
 angular_frequency = ["3e-3 rad/s", "0.03 rad/s"]
@@ -32,21 +30,10 @@ fn sweep_of(material: &str, indenter: &str) -> String {
     )
 }
 
-/// The rows of a sweep's table, and the resolved file.
-fn run(text: &str) -> (Vec<HashMap<String, String>>, String) {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "two.toml", text);
-    let mut command = program();
-    command.args(["sweep", &file, "--quiet", "--no-figures", "--out"]);
-    command.arg(folder.path().join("out")).assert().success();
-    let mut table = csv::Reader::from_path(folder.path().join("out/sweep.csv")).unwrap();
-    let rows = table.deserialize().map(|row| row.unwrap()).collect();
-    let resolved = fs::read_to_string(folder.path().join("out/resolved.toml")).unwrap();
-    (rows, resolved)
-}
-
-fn number(row: &HashMap<String, String>, column: &str) -> f64 {
-    row[column].parse().unwrap()
+/// The table of a sweep, and the resolved file.
+fn run(text: &str) -> (Table, String) {
+    let place = Place::new();
+    (place.swept(text), place.text("out/resolved.toml"))
 }
 
 #[test]
@@ -54,45 +41,33 @@ fn two_equal_bodies_are_one_of_twice_the_compliance() {
     let equal = zener("indenter.material", 1e-9, 2e-9, 40.0);
     let (pair, _) = run(&sweep_of(&zener("material", 1e-9, 2e-9, 40.0), &equal));
     let (twice, _) = run(&sweep_of(&zener("material", 2e-9, 4e-9, 40.0), ""));
-    for (pair, twice) in pair.iter().zip(&twice) {
-        // Every compliance is doubled exactly, by an addition or by the file.
-        for column in ["energy_loss_j", "approach_max_m", "dissipated_j"] {
-            assert_eq!(pair[column], twice[column], "{column}");
-        }
-        let share = number(pair, "dissipated_in_indenter_j") / number(pair, "dissipated_j");
-        assert!((share - 0.5).abs() < 1e-12, "{share}"); // as written, to 15 digits or more
-        assert_eq!(twice["dissipated_in_indenter_j"], "");
+    // Every compliance is doubled exactly, by an addition or by the file.
+    for column in ["energy_loss_j", "approach_max_m", "dissipated_j"] {
+        assert_eq!(pair.cells(column), twice.cells(column), "{column}");
     }
+    for row in 0..pair.len() {
+        let share = pair.number(row, "dissipated_in_indenter_j") / pair.number(row, "dissipated_j");
+        assert!((share - 0.5).abs() < 1e-12, "{share}"); // as written, to 15 digits or more
+    }
+    assert_eq!(twice.cells("dissipated_in_indenter_j"), ["", ""]);
 }
 
 #[test]
 fn a_rigid_indenter_is_told_where_it_costs_more_than_the_error_bars() {
     let told = |indenter: &str, bars: bool| {
-        let folder = TempDir::new().unwrap();
         let text = sweep_of("[material]\nlibrary = \"pmma\"\n", indenter);
         let text = text.replace("error_bars = false", &format!("error_bars = {bars}"));
-        let file = write(&folder, "two.toml", &text);
-        let mut command = program();
-        command
-            .args(["sweep", &file, "--out"])
-            .arg(folder.path().join("out"));
-        let output = command.output().unwrap();
-        assert!(output.status.success());
-        let page = fs::read_to_string(folder.path().join("out/index.html")).unwrap();
-        let said = String::from_utf8(output.stdout).unwrap();
-        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        let place = Place::with("two.toml", &text);
+        let said = words(&place.done("sweep two.toml --out out").stdout);
+        let page = place.text("out/index.html");
         let note = "note: the indenter is taken as rigid: a steel one would add up to ";
         assert_eq!(said.contains(note), page.contains("a steel one would add"));
         said.split_once(note).map(|(_, rest)| rest.to_owned())
     };
     // (1 - 0.3^2)/210 GPa beside (1 - 0.38^2)/2.4 GPa.
     let note = told("", true).unwrap();
-    assert!(
-        note.starts_with(
-            "1.1 % to the compliance, which is more than the error bars of 2 of 2 cases"
-        ),
-        "{note}"
-    );
+    let expected = "1.1 % to the compliance, which is more than the error bars of 2 of 2 cases";
+    assert!(note.starts_with(expected), "{note}");
     assert_eq!(told("", false), None);
     assert_eq!(
         told("[indenter.material]\nlibrary = \"steel\"\n", true),
@@ -102,14 +77,19 @@ fn a_rigid_indenter_is_told_where_it_costs_more_than_the_error_bars() {
 
 #[test]
 fn each_body_dissipates_what_its_branches_do() {
-    let (rows, _) = run(&sweep_of(
+    let (table, _) = run(&sweep_of(
         &zener("material", 1e-9, 2e-9, 40.0),
         &zener("indenter.material", 1e-9, 1e-9, 400.0),
     ));
-    for row in rows {
-        let [base, indenter] = [1, 2].map(|k| number(&row, &format!("branch_{k}_loss_j")));
-        assert_eq!(number(&row, "dissipated_in_indenter_j"), indenter);
-        let loss = number(&row, "energy_loss_j");
+    for row in 0..table.len() {
+        let [base, indenter, of_indenter, loss] = [
+            "branch_1_loss_j",
+            "branch_2_loss_j",
+            "dissipated_in_indenter_j",
+            "energy_loss_j",
+        ]
+        .map(|column| table.number(row, column));
+        assert_eq!(of_indenter, indenter);
         // Of 32 steps a cycle: the discretisation error of the loop.
         assert!(((base + indenter) / loss - 1.0).abs() < 0.01);
     }
@@ -118,8 +98,7 @@ fn each_body_dissipates_what_its_branches_do() {
 #[test]
 fn a_steel_ball_loses_nothing_itself_and_its_file_is_resolved_to_the_same_sweep() {
     let ball = "[indenter.material]\nelastic = { modulus = \"210 GPa\", poisson_ratio = 0.3 }\n";
-    let text = format!("{}{ball}", pmma_sweep(COARSE));
-    let (rows, resolved) = run(&text);
+    let (steel, resolved) = run(&format!("{}{ball}", pmma_sweep(COARSE)));
     let (rigid, _) = run(&pmma_sweep(COARSE));
     assert!(
         resolved.contains("[indenter.material.relaxation]"),
@@ -127,12 +106,12 @@ fn a_steel_ball_loses_nothing_itself_and_its_file_is_resolved_to_the_same_sweep(
     );
     let (again, resolved_again) = run(&resolved);
     assert_eq!(resolved, resolved_again);
-    for ((steel, rigid), again) in rows.iter().zip(&rigid).zip(&again) {
-        assert_eq!(steel["energy_loss_j"], again["energy_loss_j"]);
-        assert_eq!(number(steel, "dissipated_in_indenter_j"), 0.0);
+    assert_eq!(steel.cells("energy_loss_j"), again.cells("energy_loss_j"));
+    assert_eq!(steel.numbers("dissipated_in_indenter_j"), [0.0, 0.0]);
+    for row in 0..steel.len() {
         // By Hertz the approach goes with C^(2/3). C of PMMA lies between 0.34 and 0.44 per GPa over the cycle, that of steel is
         // 0.00433: 1.0 to 1.3 % more, of which two thirds.
-        let more = number(steel, "approach_max_m") / number(rigid, "approach_max_m") - 1.0;
+        let more = steel.number(row, "approach_max_m") / rigid.number(row, "approach_max_m") - 1.0;
         assert!((0.0060..0.0090).contains(&more), "{more}");
     }
 }
@@ -145,41 +124,26 @@ fn what_the_indenter_is_made_of_is_an_axis_like_any_number() {
             "[indenter.material]\nelastic = {{ modulus = \"{modulus}\", poisson_ratio = 0.3 }}\n"
         )
     };
-    let over = |axis: &str, indenter: &str| {
-        let text = sweep_of(pmma, indenter);
+    let over = |axis: &str| {
+        let text = sweep_of(pmma, &elastic("210 GPa"));
         text.replace("[sweep]\n", &format!("[sweep]\n{axis}\n"))
     };
-    let moduli = ["3 GPa", "70 GPa"];
     let axis = "indenter.material.elastic.modulus = [\"3 GPa\", \"70 GPa\"]";
-    let swept = over(axis, &elastic("210 GPa"));
-    let (rows, resolved) = run(&swept);
-    assert_eq!(rows.len(), 4);
-    for (rows, modulus) in rows.chunks(2).zip(moduli) {
-        let (alone, _) = run(&sweep_of(pmma, &elastic(modulus)));
-        for (row, alone) in rows.iter().zip(&alone) {
-            for column in ["energy_loss_j", "phase_lag_rad", "storage_modulus_pa"] {
-                assert_eq!(row[column], alone[column], "{modulus} {column}");
-            }
-        }
+    let (table, resolved) = run(&over(axis));
+    let alone = ["3 GPa", "70 GPa"].map(|modulus| run(&sweep_of(pmma, &elastic(modulus))).0);
+    for column in ["energy_loss_j", "phase_lag_rad", "storage_modulus_pa"] {
+        let alone = alone.each_ref().map(|alone| alone.cells(column)).concat();
+        assert_eq!(table.cells(column), alone, "{column}");
     }
-    let column = "indenter_material_elastic_modulus_pa";
-    assert_eq!(
-        [number(&rows[0], column), number(&rows[2], column)],
-        [3e9, 70e9]
-    );
-    let (again, resolved_again) = run(&resolved);
-    assert_eq!(again, rows);
-    assert_eq!(resolved_again, resolved);
+    let moduli = table.numbers("indenter_material_elastic_modulus_pa");
+    assert_eq!(moduli, [3e9, 3e9, 70e9, 70e9]);
+    assert_eq!(run(&resolved), (table, resolved));
     // Beside an axis of the body: every pair.
     let both = format!(
         "{axis}\ndrive.amplitude = [\"2 N\", \"5 N\"]\nmaterial.poisson_ratio = [0.3, 0.4]"
     );
-    let (rows, _) = run(&over(&both, &elastic("210 GPa")).replace(
-        pmma,
-        "[material]\nlibrary = \"pmma\"\npoisson_ratio = 0.38\n",
-    ));
-    assert_eq!(rows.len(), 16);
-    let losses: std::collections::HashSet<_> =
-        rows.iter().map(|row| &row["energy_loss_j"]).collect();
-    assert_eq!(losses.len(), 16);
+    let pmma_of_ratio = "[material]\nlibrary = \"pmma\"\npoisson_ratio = 0.38\n";
+    let (table, _) = run(&over(&both).replace(pmma, pmma_of_ratio));
+    let losses: HashSet<_> = table.cells("energy_loss_j").into_iter().collect();
+    assert_eq!((table.len(), losses.len()), (16, 16));
 }

@@ -2,17 +2,14 @@
 
 #![cfg(feature = "cli")]
 
-use std::fs;
-
 use crate::html::{between, unescaped};
-use crate::program::{SVG_ALONE, pmma_sweep, program, write};
+use crate::program::{Place, SVG, pmma_sweep, words};
 use contact_dma::input::document::Document;
 use contact_dma::input::sweep_file;
 use contact_dma::sweep::record::warning::Warning;
 use contact_dma::sweep::store::Store;
 use contact_dma::sweep::store::entry::Purpose;
 use serde_json::Value;
-use tempfile::TempDir;
 
 const THREE: &str = r#"[sweep]
 angular_frequency = ["0.004 rad/s", "0.008 rad/s", "0.02 rad/s"]
@@ -20,34 +17,27 @@ angular_frequency = ["0.004 rad/s", "0.008 rad/s", "0.02 rad/s"]
 
 /// Everything a command left and printed.
 struct Left {
-    folder: TempDir,
+    place: Place,
     printed: String,
     summary: Value,
     page: String,
 }
 
 fn run(command: &str, text: &str, files: &[(&str, &str)]) -> Left {
-    let folder = TempDir::new().unwrap();
+    let place = Place::with("input.toml", text);
     for (name, text) in files {
-        write(&folder, name, text);
+        place.put(name, text);
     }
-    let file = write(&folder, "input.toml", text);
-    let out = folder.path().join("out");
-    let mut program = program();
-    program.args([command, &file, "--out"]).arg(&out);
-    let assert = program.args(SVG_ALONE).assert().success();
-    let printed = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
-    assert!(
-        printed
-            .lines()
-            .all(|line| line.chars().count() <= 80 || line.starts_with("Results"))
-    );
-    let summary = fs::read(out.join("summary.json")).unwrap();
+    let printed = place
+        .done(&format!("{command} input.toml --out out {SVG}"))
+        .stdout;
+    let is_narrow = |line: &str| line.chars().count() <= 80 || line.starts_with("Results");
+    assert!(printed.lines().all(is_narrow), "{printed}");
     Left {
-        printed: printed.split_whitespace().collect::<Vec<_>>().join(" "),
-        summary: serde_json::from_slice(&summary).unwrap(),
-        page: fs::read_to_string(out.join("index.html")).unwrap(),
-        folder,
+        printed: words(&printed),
+        summary: place.json("out/summary.json"),
+        page: place.text("out/index.html"),
+        place,
     }
 }
 
@@ -77,18 +67,10 @@ impl Left {
         }
     }
 
-    /// The column `warnings` of sweep.csv.
-    fn column(&self) -> Vec<String> {
-        let mut table = csv::Reader::from_path(self.folder.path().join("out/sweep.csv")).unwrap();
-        let column = table
-            .headers()
-            .unwrap()
-            .iter()
-            .position(|c| c == "warnings");
-        let rows = table
-            .records()
-            .map(|row| row.unwrap()[column.unwrap()].to_owned());
-        rows.collect()
+    /// A column of sweep.csv.
+    fn column(&self, name: &str) -> Vec<String> {
+        let table = self.place.table("out/sweep.csv");
+        table.cells(name).into_iter().map(str::to_owned).collect()
     }
 }
 
@@ -97,7 +79,7 @@ fn a_sweep_inside_the_model_is_not_warned_of() {
     let left = run("sweep", &pmma_sweep(THREE), &[]);
     assert!(left.codes().is_empty());
     left.says_them();
-    assert_eq!(left.column(), ["", "", ""]);
+    assert_eq!(left.column("warnings"), ["", "", ""]);
 }
 
 #[test]
@@ -106,7 +88,7 @@ fn ten_newtons_on_a_tip_of_ten_nanometres_are_warned_of_everywhere() {
     let left = run("sweep", &text, &[]);
     assert_eq!(left.codes(), ["large-strain", "steep-slope"]);
     left.says_them();
-    assert_eq!(left.column(), ["large-strain steep-slope"; 3]);
+    assert_eq!(left.column("warnings"), ["large-strain steep-slope"; 3]);
     for warning in left.summary["warnings"].as_array().unwrap() {
         assert_eq!(warning["cases"], 3);
         assert_eq!(warning["lowest_angular_frequency_rad_per_s"], 0.004);
@@ -114,10 +96,9 @@ fn ten_newtons_on_a_tip_of_ten_nanometres_are_warned_of_everywhere() {
     }
     assert!(left.printed.contains("(all cases)"));
     // a/R of the record, which the slope of the paraboloid is, and a fifth of it.
-    let out = left.folder.path().join("out");
-    let plan = fs::read_to_string(out.join("resolved.toml")).unwrap();
+    let plan = left.place.text("out/resolved.toml");
     let plan = sweep_file::plan(&Document::parse("resolved.toml", &plan).unwrap());
-    let (store, _) = Store::reopen_to_read(&out).unwrap();
+    let (store, _) = Store::reopen_to_read(&left.place.path("out")).unwrap();
     let case = &plan.ok().unwrap().cases()[1];
     let kept = store.records().load(Purpose::Sweep, case, false).unwrap();
     let case = kept.intact().unwrap();
@@ -134,11 +115,10 @@ fn ten_newtons_on_a_tip_of_ten_nanometres_are_warned_of_everywhere() {
     assert!((slope / ratio - 1.0).abs() < 1e-3);
     assert!((strain / (0.2 * ratio) - 1.0).abs() < 1e-3);
     // Drawn again from the records, the same is said; asked to be quiet, nothing.
-    let again = program().args(["report"]).arg(&out).assert().success();
-    let again = String::from_utf8(again.get_output().stdout.clone()).unwrap();
+    let again = left.place.done("report out").stdout;
     assert_eq!(again.matches("warning:").count(), 2);
-    let quiet = program().args(["report", "--quiet"]).arg(&out).assert();
-    quiet.success().stdout("").stderr("");
+    let quiet = left.place.done("report --quiet out");
+    assert_eq!(quiet.stdout + &quiet.stderr, "");
 }
 
 #[test]
@@ -163,7 +143,10 @@ angular_frequency = ["0.01 rad/s", "0.1 rad/s", "10 rad/s", "100 rad/s"]
     let left = run("sweep", text, &[]);
     assert_eq!(left.codes(), ["large-strain"]);
     left.says_them();
-    assert_eq!(left.column(), ["", "", "large-strain", "large-strain"]);
+    assert_eq!(
+        left.column("warnings"),
+        ["", "", "large-strain", "large-strain"]
+    );
     let said = "(2 of 4 cases, ω = 10.00 rad/s to 100.0 rad/s)";
     assert!(left.printed.contains(said), "{}", left.printed);
 }
@@ -220,10 +203,7 @@ fn an_accuracy_on_the_cells_of_a_map_keeps_the_result_and_says_that_it_has_no_er
             .replace("5 N", "0.5 N");
         let left = run("sweep", &text, &[("map.csv", &map())]);
         assert_eq!(left.codes(), ["no-error-bars"]);
-        let mut table = csv::Reader::from_path(left.folder.path().join("out/sweep.csv")).unwrap();
-        let place = (table.headers().unwrap().iter()).position(|c| c == "energy_loss_j");
-        let row = table.records().next().unwrap().unwrap();
-        row[place.unwrap()].parse::<f64>().unwrap()
+        left.column("energy_loss_j")[0].parse::<f64>().unwrap()
     });
     // The tolerance of the cycle follows the accuracy.
     assert!((losses[1] / losses[0] - 1.0).abs() < 1e-3, "{losses:?}");
@@ -241,15 +221,12 @@ fn a_map_has_its_own_cells_and_no_error_bars_and_both_are_said() {
     let left = run("sweep", &text, &[("map.csv", &map())]);
     assert_eq!(left.codes(), ["no-error-bars"]);
     left.says_them();
-    assert_eq!(left.column(), ["no-error-bars"]);
+    assert_eq!(left.column("warnings"), ["no-error-bars"]);
     assert!(
         left.page
             .contains("<dt>cells of the map</dt><dd>20 × 15</dd>")
     );
-    let mut table = csv::Reader::from_path(left.folder.path().join("out/sweep.csv")).unwrap();
-    let nodes = table.headers().unwrap().iter().position(|c| c == "nodes");
-    let row = table.records().next().unwrap().unwrap();
-    assert_eq!(&row[nodes.unwrap()], "20");
+    assert_eq!(left.column("nodes"), ["20"]);
     // Asked for none, none are missed.
     let text = text.replace("steps = 32", "steps = 32\nerror_bars = false");
     let left = run("sweep", &text, &[("map.csv", &map())]);
