@@ -43,9 +43,14 @@ const fn measured(number: Number, names: &'static [&'static str]) -> Measured {
     Measured { number, value }
 }
 
-const APPROACH_AMPLITUDE: Measured = measured(Number::ApproachAmplitude, &["approach_amplitude", "depth_amplitude"]);
-const LOAD_AMPLITUDE: Measured =
-    measured(Number::LoadAmplitude, &["load_amplitude", "force_amplitude"]);
+const APPROACH_AMPLITUDE: Measured = measured(
+    Number::ApproachAmplitude,
+    &["approach_amplitude", "depth_amplitude"],
+);
+const LOAD_AMPLITUDE: Measured = measured(
+    Number::LoadAmplitude,
+    &["load_amplitude", "force_amplitude"],
+);
 
 #[rustfmt::skip]
 static MEASURED: [Measured; 12] = [

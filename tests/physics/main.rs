@@ -36,3 +36,4 @@ mod transient_contact;
 mod two_bodies;
 mod two_engines;
 mod units;
+mod work_of_cases;
