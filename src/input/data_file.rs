@@ -127,32 +127,37 @@ impl Column {
         self.name_in(cell).is_some()
     }
 
-    /// Where the column stands in a table, and its unit; `None` where it is not there and need not be.
-    fn asked(&self, section: &Section<'_>) -> Result<Option<Asked>, Diagnostic> {
+    /// Where the column stands in a table, and the unit beside its name; `None` where it is not there and need not be.
+    fn found(&self, section: &Section<'_>) -> Result<Option<(usize, Option<String>)>, Diagnostic> {
         let cells = section.header.texts().enumerate();
-        let found = cells.filter_map(|(place, cell)| Some((place, self.name_in(cell)?)));
-        let mut found: Vec<(usize, (usize, Option<String>))> = found.collect();
+        let found = cells.filter_map(|(place, cell)| Some((self.name_in(cell)?, place)));
+        let mut found: Vec<((usize, Option<String>), usize)> = found.collect();
         if self.first_name_counts {
-            found.sort_by_key(|(_, (name, _))| *name);
-            let first = found.first().map(|(_, (name, _))| *name);
-            found.retain(|(_, (name, _))| Some(*name) == first);
+            let first = found.iter().map(|((name, _), _)| *name).min();
+            found.retain(|((name, _), _)| Some(*name) == first);
         }
-        let (place, unit) = match found.as_slice() {
-            [] if self.is_optional => return Ok(None),
-            [] => return Err(self.missing(section)),
-            [(place, (_, unit))] => (*place, unit.as_deref()),
-            [(first, _), (second, _), ..] => {
-                return Err(section.twice([*first, *second], self.what));
-            }
-        };
-        let name = section.header.text(place);
-        let scale = section.scale((place, self.what), unit, |unit| match unit {
+        let mut found = found.into_iter();
+        match (found.next(), found.next()) {
+            (None, _) if self.is_optional => Ok(None),
+            (None, _) => Err(self.missing(section)),
+            (Some(((_, unit), place)), None) => Ok(Some((place, unit))),
+            (Some((_, first)), Some((_, second))) => Err(section.twice([first, second], self.what)),
+        }
+    }
+
+    /// What is read of a column that was found.
+    fn asked(
+        &self,
+        section: &Section<'_>,
+        (place, unit): (usize, Option<String>),
+    ) -> Result<Asked, Diagnostic> {
+        let (what, name) = (self.what, section.header.text(place));
+        let scale = section.scale((place, what), unit.as_deref(), |unit| match unit {
             Some(unit) => units::scale(unit, self.dimension),
             None if self.unit_may_be_absent => Ok(Scale::ONE),
             None => Err(format!("write `{name} [{}]`", self.dimension.si_unit())),
         })?;
-        let what = self.what;
-        Ok(Some(Asked { place, scale, what }))
+        Ok(Asked { place, scale, what })
     }
 
     fn missing(&self, section: &Section<'_>) -> Diagnostic {
@@ -307,7 +312,8 @@ impl DataFile {
     ) -> Result<Table, Diagnostics> {
         let header = self.header(wanted);
         if header.len() == 0 {
-            let names: Vec<String> = wanted.iter().map(Column::name_in_si).collect();
+            let needed = wanted.iter().filter(|column| !column.is_optional);
+            let names: Vec<String> = needed.map(Column::name_in_si).collect();
             let example = names.join(",");
             return Err(Diagnostic::at(&self.first_line(), "the table is empty")
                 .help(format!("begin it with a line of column names: `{example}`"))
@@ -317,7 +323,12 @@ impl DataFile {
         let is_wanted = |cell: &str| wanted.iter().any(|column| column.is_named(cell));
         let names = grid.line(0);
         let section = Section::new(&grid, 0, grid.len(), |place| is_wanted(names.text(place)));
-        let asked = wanted.iter().map(|column| column.asked(&section));
+        let found = wanted.iter().map(|column| column.found(&section));
+        let found = found.collect::<Result<Vec<_>, _>>()?.into_iter();
+        let asked = wanted.iter().zip(found).map(|(column, found)| {
+            let asked = found.map(|found| column.asked(&section, found));
+            asked.transpose()
+        });
         let asked: Vec<Option<Asked>> = asked.collect::<Result<_, _>>()?;
         let problems = Problems::new();
         let table = section.read(&asked, holes, without_number, &problems);
@@ -515,6 +526,39 @@ mod tests {
         assert_eq!(grouped, [[0.25, 1234.5], [1000.0, 2500.0]]);
         let grouped = read("f_hz;E' [Pa]\n0.25;1,234,567\n").unwrap();
         assert_eq!(grouped, [[0.25, 1_234_567.0]]);
+    }
+
+    #[test]
+    fn a_missing_number_has_one_fate_whatever_word_says_so() {
+        for word in [
+            "", "-", "--", "---", "n/a", "NA", "n.a.", "NaN", "#N/A", "none", "null",
+        ] {
+            let text = format!("f_hz,E' [Pa]\n1,2\n2,{word}\n3,4\n");
+            let file = DataFile::from_bytes("dma.txt", text.as_bytes()).unwrap();
+            let read = |holes| file.columns(&[FREQUENCY, MODULUS], holes, "leave it out");
+            let refused = read(Holes::Refused).err().unwrap().to_string();
+            assert!(refused.contains("dma.txt:3:3"), "{word}: {refused}");
+            let table = read(Holes::PassedOver).unwrap();
+            assert_eq!((table.column(0), table.passed_over()), (vec![1.0, 3.0], 1));
+            assert_eq!((table.number_of(0), table.number_of(1)), (1, 3));
+            let table = read(Holes::Kept).unwrap();
+            assert_eq!((table.len(), table.number(1, 1)), (3, None), "{word}");
+        }
+    }
+
+    #[test]
+    fn a_column_may_be_optional_and_known_by_the_first_of_its_names() {
+        let file = DataFile::from_bytes("dma.txt", b"E' [Pa],storage_modulus_pa,f_hz\n1,2,3\n");
+        let file = file.unwrap();
+        let read = |columns: &[Column]| file.columns(columns, Holes::Refused, "leave it out");
+        let error = MODULUS.with("_error", "errors");
+        let table = read(&[MODULUS.by_first_name(), error.optional()]).unwrap();
+        assert_eq!((table.number(0, 0), table.has(1)), (Some(1.0), false));
+        assert_eq!(error.name_in_si(), "e'_error_pa");
+        assert_eq!(error.name_in("Storage_Modulus_Error_MPa").unwrap().0, 1);
+        for columns in [[MODULUS, FREQUENCY], [FREQUENCY, error]] {
+            assert!(read(&columns).is_err());
+        }
     }
 
     proptest! {

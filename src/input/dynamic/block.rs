@@ -326,8 +326,9 @@ impl<'a> Block<'a> {
 
     /// The names of the columns, with their units, and what is assumed.
     fn notes(&self, columns: &Columns) -> Vec<String> {
-        let all = columns.numbers.iter().flatten().chain(&columns.set);
-        let described = all.map(|column| {
+        let (needed, errors) = columns.numbers.split_at(4);
+        let needed = needed.iter().flatten().chain(&columns.set);
+        let described = needed.chain(errors.iter().flatten()).map(|column| {
             let name = self.section.header.text(column.asked.place);
             let unit = column.unit.as_deref().filter(|unit| !name.contains(unit));
             unit.map_or_else(|| format!("`{name}`"), |unit| format!("`{name}` [{unit}]"))
