@@ -11,6 +11,10 @@
 //!   `time (ms)`, `Time / s`; or a row of units below it does. In names joined by `_` case does not matter: `mpa` is MPa.
 //!
 //! Every problem is shown at its place, all of a file at once.
+//!
+//! Bytes become a text in `text`, those of a workbook one for every sheet in `workbook`; `grid` cuts it into lines of cells, of which a
+//! `section` is a table: a header, perhaps a row of units (`units`), and rows of numbers (`numbers`). Files of instruments, in
+//! [`super::dynamic`], are read by the same sections.
 
 pub(crate) mod grid;
 mod numbers;

@@ -30,8 +30,8 @@ pub(crate) struct Section<'a> {
     pub(crate) rows: Range<usize>,
     /// Of these, those that are passed over, ascending.
     pub(crate) skipped: Vec<usize>,
-    /// Whether rows may be shorter or longer than the header, as some instruments write them.
-    pub(crate) may_be_ragged: bool,
+    /// Whether an instrument wrote it: rows may be shorter or longer than the header.
+    pub(crate) by_instrument: bool,
 }
 
 /// A column that is read.
@@ -67,20 +67,17 @@ impl<'a> Section<'a> {
             units: has_units.then_some(below),
             rows: header + 1 + usize::from(has_units)..end,
             skipped: Vec::new(),
-            may_be_ragged: false,
+            by_instrument: false,
         }
     }
 
     /// Rows of numbers without names, from this line on.
     pub(crate) fn without_names(grid: &'a Grid, first: usize) -> Self {
         Self {
-            grid,
             header: grid.line(first),
             has_names: false,
-            units: None,
             rows: first..grid.len(),
-            skipped: Vec::new(),
-            may_be_ragged: false,
+            ..Self::new(grid, first, grid.len(), |_| false)
         }
     }
 
@@ -89,12 +86,12 @@ impl<'a> Section<'a> {
     ///
     /// # Errors
     /// No unit, one that cannot be read, another one below the name.
-    pub(crate) fn scale<S: PartialEq>(
+    pub(crate) fn scale(
         &self,
         (place, what): (usize, &str),
         above: Option<&str>,
-        read: impl Fn(Option<&str>) -> Result<S, String>,
-    ) -> Result<S, Diagnostic> {
+        read: impl Fn(Option<&str>) -> Result<Scale, String>,
+    ) -> Result<Scale, Diagnostic> {
         let name = self.header.place(place);
         let below = self.units.as_ref();
         let below = below.and_then(|row| Some((units::given(row.text(place))?, row.place(place))));
@@ -218,7 +215,7 @@ impl<'a> Section<'a> {
     fn is_ragged(&self, row: &Line<'_>) -> bool {
         let (found, expected) = (row.len(), self.header.len());
         let is_empty = |cell: usize| row.text(cell).is_empty();
-        !self.may_be_ragged && (found < expected || !(expected..found).all(is_empty))
+        !self.by_instrument && (found < expected || !(expected..found).all(is_empty))
     }
 
     fn report_ragged(&self, line: usize, row: &Line<'_>, problems: &Problems) {

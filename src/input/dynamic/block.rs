@@ -20,8 +20,6 @@ pub(super) struct Block<'a> {
     pub(super) name: Option<&'a str>,
     /// Where the file says it of the block as a whole.
     pub(super) temperature_k: Option<f64>,
-    /// Whether an instrument wrote it: of columns with the same meaning the first counts.
-    pub(super) by_instrument: bool,
     /// Whether frequencies are reduced, so that the temperatures of the rows are not that of the curve.
     pub(super) is_master: bool,
 }
@@ -122,15 +120,13 @@ impl<'a> Block<'a> {
             section,
             name: None,
             temperature_k: None,
-            by_instrument: false,
             is_master: false,
         }
     }
 
-    /// As an instrument wrote it.
+    /// As an instrument wrote it: of columns with the same meaning the first counts.
     pub(super) fn by_instrument(mut self) -> Self {
-        self.by_instrument = true;
-        self.section.may_be_ragged = true;
+        self.section.by_instrument = true;
         self
     }
 
@@ -208,7 +204,7 @@ impl<'a> Block<'a> {
                 continue;
             }
             // A loss near zero is as often below it as above, in any table.
-            if self.by_instrument || which == 2 {
+            if self.section.by_instrument || which == 2 {
                 return Row::Noise;
             }
             let message = format!("{} must be positive", asked.role.what());
@@ -289,7 +285,7 @@ impl<'a> Block<'a> {
             of_role.partition(|(_, named)| named.kind.is_none_or(|k| k == kind));
         match (asked.as_slice(), others.first()) {
             ([], Some((other, _))) => return Err(self.other_modulus(*other, kind)),
-            ([(first, _), (second, _), ..], _) if !self.by_instrument => {
+            ([(first, _), (second, _), ..], _) if !self.section.by_instrument => {
                 return Err(self.section.twice([*first, *second], role.what()));
             }
             _ => {}

@@ -40,7 +40,10 @@ pub(super) fn split(
         return Ok(vec![points]);
     };
     temperatures.sort_by(f64::total_cmp);
-    if block.by_instrument && width(&temperatures) <= WIDEST_STEP_K && frequencies_differ(&points) {
+    if block.section.by_instrument
+        && width(&temperatures) <= WIDEST_STEP_K
+        && frequencies_differ(&points)
+    {
         return Ok(vec![points]);
     }
     let gaps = temperatures.windows(2).map(|pair| pair[1] - pair[0]);

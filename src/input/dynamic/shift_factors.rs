@@ -53,7 +53,7 @@ pub fn shift_factors_from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<(f64, f6
     let places = places(&grid.header(header)).unwrap_or_default();
     let end = grid.len();
     let mut section = Section::new(&grid, header, end, |place| places.contains(&place));
-    section.may_be_ragged = true;
+    section.by_instrument = true;
     let [temperature, factor] = places;
     let named = columns::recognise(section.header.text(temperature));
     let above = named.and_then(|named| named.unit);
