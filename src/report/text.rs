@@ -90,16 +90,10 @@ impl fmt::Display for Text {
 }
 
 /// Each line by itself.
-impl From<String> for Text {
-    fn from(lines: String) -> Self {
-        let lines = lines.lines().map(|line| Part::Line(line.to_owned()));
-        Self(lines.collect())
-    }
-}
-
-impl From<&str> for Text {
-    fn from(lines: &str) -> Self {
-        lines.to_owned().into()
+impl<S: AsRef<str>> From<S> for Text {
+    fn from(lines: S) -> Self {
+        let lines = lines.as_ref().lines();
+        Self(lines.map(|line| Part::Line(line.to_owned())).collect())
     }
 }
 
@@ -386,7 +380,7 @@ mod tests {
         let expected = "name      largest\n           of all\nlong name       1\n  a remark\n";
         assert_eq!(text.to_string(), expected);
         let narrow =
-            "name\nlong name\n  a remark\n  left out in 12 columns:\n  largest of\n  all\n";
+            "name\nlong name\n  a remark\n  left out\n  in 12\n  columns:\n  largest of\n  all\n";
         assert_eq!(fitted(&text, 12), narrow);
     }
 
