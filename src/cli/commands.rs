@@ -40,7 +40,7 @@ Exit codes:
 enum Command {
     /// Compute energy loss, phase, moduli, radius and pressure of the stabilised cycle over frequency and up to four other axes
     Sweep(sweep::SweepFlags),
-    /// Print the cases of a sweep file and their approximate cost, without computing them
+    /// Print the cases of a sweep file and their approximate cost
     Plan(plan::PlanFlags),
     /// Join the shards of a sweep that have folders of their own
     Merge(stored::MergeFlags),
@@ -50,7 +50,7 @@ enum Command {
     Compare(compare::CompareFlags),
     /// Read frequency, drift, loss, phase, harmonics and moduli from measured loops, with 95 % intervals
     Analyse(analyse::AnalyseFlags),
-    /// Follow one drive history: load or approach against time, from a scenario file, with profiles and fields
+    /// Follow one drive history, load or approach against time
     Simulate(simulate::SimulateFlags),
     /// Find the material from measured cycles, creep or relaxation: moduli and times with confidence bands
     Identify(identify::IdentifyFlags),
@@ -59,7 +59,7 @@ enum Command {
     /// Show, fit and export materials: series, moduli over frequency, sources
     #[command(subcommand)]
     Material(material::MaterialCommand),
-    /// Print the JSON Schema of sweep, scenario or setup files, with which editors complete and check them
+    /// Print the JSON Schema by which editors complete and check input files
     Schema(schema::SchemaFlags),
     /// Write anew what the repository repeats of the tables of keys and columns and of the commands
     #[command(hide = true)]

@@ -21,7 +21,7 @@ Examples:
   contact-dma material show pmma --out reports/material-pmma
   contact-dma material show sweeps/pmma.toml")]
     Show(ShowFlags),
-    /// Fit a series to measured creep compliance or relaxation modulus, or to storage and loss modulus over frequency and temperature
+    /// Fit a series to measured creep or relaxation, or to storage and loss modulus over frequency and temperature
     #[command(after_help = "\
 Examples:
   contact-dma material fit creep.csv --quantity creep --modulus shear --poisson-ratio 0.38

@@ -125,9 +125,13 @@ fn parts(program: &clap::Command) -> Vec<(String, Part)> {
         ("shapes", "indenter", "src/guide/own_indenter.md"),
         ("segments", "drive.segments", "src/guide/own_loading.md"),
     ] {
-        marked("README.md", name, names(path, &|name| name.to_owned()));
         marked(guide, name, block(&meanings(path)));
     }
+    marked(
+        "README.md",
+        "shapes",
+        names("indenter", &|word| word.to_owned()),
+    );
     marked("src/guide/python.md", "shapes", names("indenter", &class));
     marked(
         "src/guide/input_files.md",
