@@ -14,7 +14,7 @@ use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
 use contact_dma::contact::{ContactError, Engine, Instant, Prescribed, Solution};
 use contact_dma::drive::HarmonicDrive;
 use contact_dma::engine::{EngineKind, SolverPlan};
-use contact_dma::indenter::Indenter;
+use contact_dma::indenter::{Indenter, Sphere};
 use contact_dma::material::{Creep, Material, ModulusKind, classical, library};
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::{Case, CyclePlan, SweepPlan};
@@ -204,4 +204,23 @@ pub fn on_cells(mut plan: SweepPlan, cells: usize, steps: usize) -> SweepPlan {
         ..SolverPlan::default()
     };
     plan
+}
+
+/// A whole number that whoever runs the tests asks for, or another.
+pub fn from_environment(name: &str, otherwise: u64) -> u64 {
+    let asked = std::env::var(name).ok();
+    asked.map_or(otherwise, |text| text.parse().expect("a whole number"))
+}
+
+/// Uniform between 0 and 1, of D. E. Knuth's linear congruential generator (MMIX).
+pub fn uniform(state: &mut u64) -> f64 {
+    *state = state
+        .wrapping_mul(6_364_136_223_846_793_005)
+        .wrapping_add(1_442_695_040_888_963_407);
+    (*state >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// A sphere of 10 mm.
+pub fn sphere_of_10_mm() -> Arc<dyn Indenter> {
+    Arc::new(Sphere::new(0.01).unwrap())
 }

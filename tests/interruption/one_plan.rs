@@ -9,12 +9,9 @@ use std::path::Path;
 use std::process::{Child, Command as Process, Output, Stdio};
 
 use crate::kills::{assert_same, signal, wait_for};
-use crate::program::{pmma_sweep, program, write};
+use crate::program::{Place, pmma_sweep};
 use crate::segments;
 use contact_dma::sweep::plan::resolved::hash;
-use predicates::prelude::*;
-use predicates::str::contains;
-use tempfile::TempDir;
 
 /// Two cases, of a few milliseconds each, and figures that are drawn quickly.
 const SMALL: &str = r#"[sweep]
@@ -72,21 +69,19 @@ fn together(commands: &[Vec<&str>], out: &Path) -> Vec<Output> {
     ends.map(Result::unwrap).collect()
 }
 
-fn sweep(file: &str, out: &Path, more: &[&str]) -> assert_cmd::assert::Assert {
-    let mut command = program();
-    command.args(["sweep", file, "--quiet", "--out"]).arg(out);
-    command.args(more).assert()
+/// A folder with two plans, of which the sweep is computed undisturbed in `whole`; the path of the sweep's file.
+fn small() -> (Place, String) {
+    let place = Place::with("small.toml", &pmma_sweep(SMALL));
+    place.put("step.toml", SCENARIO);
+    place.done("sweep small.toml --quiet --out whole");
+    let file = place.path("small.toml").to_str().unwrap().to_owned();
+    (place, file)
 }
 
 /// The hashes that the plan, the records and the summary of a folder name; the number of records.
 fn hashes(out: &Path) -> (BTreeSet<String>, usize) {
     let plan = fs::read_to_string(out.join("resolved.toml")).unwrap();
     let mut hashes = BTreeSet::from([hash(&plan)]);
-    let of = |json: &[u8]| {
-        let json: serde_json::Value = serde_json::from_slice(json).unwrap();
-        let named = json.get("sweep_hash").or(json.get("scenario_hash"));
-        named.unwrap().as_str().unwrap().to_owned()
-    };
     let records = segments::read(out);
     hashes.extend(
         records
@@ -94,7 +89,9 @@ fn hashes(out: &Path) -> (BTreeSet<String>, usize) {
             .map(|stored| stored.heading.sweep_hash.clone()),
     );
     if let Ok(summary) = fs::read(out.join("summary.json")) {
-        hashes.insert(of(&summary));
+        let summary: serde_json::Value = serde_json::from_slice(&summary).unwrap();
+        let named = summary.get("sweep_hash").or(summary.get("scenario_hash"));
+        hashes.insert(named.unwrap().as_str().unwrap().to_owned());
     }
     (hashes, records.len())
 }
@@ -117,20 +114,14 @@ fn succeeded(ends: &[Output], out: &Path) -> Vec<bool> {
 
 #[test]
 fn who_waits_for_the_lock_of_a_folder_says_so_and_goes_on_when_it_is_free() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "small.toml", &pmma_sweep(SMALL));
-    let out = folder.path().join("out");
-    sweep(&file, &out, &[]).success();
+    let (place, file) = small();
+    let out = place.path("whole");
     let lock = fs::File::open(out.join(".contact-dma.lock")).unwrap();
     lock.lock().unwrap();
     let mut child = start(&["sweep", &file], &out);
     let mut told = [0; 12];
-    child
-        .stderr
-        .as_mut()
-        .unwrap()
-        .read_exact(&mut told)
-        .unwrap();
+    let stderr = child.stderr.as_mut().unwrap();
+    stderr.read_exact(&mut told).unwrap();
     assert_eq!(&told, b"waiting for ");
     lock.unlock().unwrap();
     assert!(child.wait().unwrap().success());
@@ -138,18 +129,16 @@ fn who_waits_for_the_lock_of_a_folder_says_so_and_goes_on_when_it_is_free() {
 
 #[test]
 fn of_different_plans_that_begin_at_once_one_is_computed_and_the_others_are_refused() {
-    let folder = TempDir::new().unwrap();
-    let (file, scenario) = (
-        write(&folder, "small.toml", &pmma_sweep(SMALL)),
-        write(&folder, "step.toml", SCENARIO),
-    );
+    let (place, file) = small();
+    let scenario = place.path("step.toml");
+    let scenario = scenario.to_str().unwrap();
     let commands = [
         vec!["sweep", &file],
         vec!["sweep", &file, "--set", "cycle.steps=32"],
-        vec!["simulate", &scenario],
+        vec!["simulate", scenario],
     ];
     for round in 0..30 {
-        let out = folder.path().join(format!("round-{round}"));
+        let out = place.path(&format!("round-{round}"));
         let mut order = commands.clone();
         order.rotate_left(round % 3);
         let done = succeeded(&together(&order, &out), &out);
@@ -160,20 +149,17 @@ fn of_different_plans_that_begin_at_once_one_is_computed_and_the_others_are_refu
 
 #[test]
 fn shards_of_one_sweep_share_a_folder_and_nothing_else_joins_them() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "small.toml", &pmma_sweep(SMALL));
-    let whole = folder.path().join("whole");
-    sweep(&file, &whole, &[]).success();
+    let (place, file) = small();
     let commands = [
         vec!["sweep", &file, "--shard", "1/2"],
         vec!["sweep", &file, "--set", "cycle.steps=32"],
         vec!["sweep", &file, "--shard", "2/2"],
     ];
     for round in 0..6 {
-        let out = folder.path().join(format!("round-{round}"));
+        let out = place.path(&format!("round-{round}"));
         let done = succeeded(&together(&commands, &out), &out);
         match done[..] {
-            [true, false, true] => assert_same(&out, &whole),
+            [true, false, true] => assert_same(&out, &place.path("whole")),
             [false, true, false] => {}
             _ => panic!("round {round}: {done:?}"),
         }
@@ -202,29 +188,36 @@ fn begun(file: &str, out: &Path) -> Child {
 
 #[test]
 fn what_runs_is_neither_replaced_nor_joined_by_another_and_loses_nothing() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "small.toml", &pmma_sweep(SMALL));
-    let out = folder.path().join("out");
+    let (place, file) = small();
+    let out = place.path("out");
     let running = begun(&file, &out);
     // However slow this machine, it does not end before it has been disturbed.
     stop(&running);
     let before = hashes(&out);
-    let in_use = || contains("/out is in use").and(contains("another folder with --out"));
-    let named = || in_use().and(contains("PMMA under a sphere"));
-    sweep(&file, &out, &["--force"]).code(2).stderr(named());
-    let same = [&MANY[..], &["--force"]].concat();
-    sweep(&file, &out, &same).code(2).stderr(named());
-    sweep(&file, &out, &[])
-        .code(2)
-        .stderr(in_use().and(contains("+ angular_frequency").or(contains("-     \"0.001"))));
-    program()
-        .arg("merge")
-        .arg(&out)
-        .args(["--force", "--out"])
-        .arg(&out)
-        .assert()
-        .code(2)
-        .stderr(named());
+    let sweep = "sweep small.toml --quiet --out";
+    let many = MANY.map(|argument| format!("'{argument}'")).join(" ");
+    let full = out.display();
+    for line in [
+        format!("{sweep} '{full}' --force"),
+        format!("{sweep} '{full}' {many} --force"),
+        format!("{sweep} '{full}'"),
+        format!("merge '{full}' --force --out '{full}'"),
+    ] {
+        let told = place.ends(&line, 2);
+        assert!(told.contains("/out is in use"), "{told}");
+        assert!(told.contains("another folder with --out"), "{told}");
+        let is_named = told.contains("PMMA under a sphere");
+        // Unforced, what differs is told.
+        let differs = told.contains("+ angular_frequency") || told.contains("-     \"0.001");
+        assert!(
+            if line.contains("--force") {
+                is_named
+            } else {
+                differs
+            },
+            "{told}"
+        );
+    }
     assert_eq!(hashes(&out), before);
     signal(&running, "-CONT");
     let end = running.wait_with_output().unwrap();
@@ -237,10 +230,8 @@ fn what_runs_is_neither_replaced_nor_joined_by_another_and_loses_nothing() {
 /// Machines that share a file system without locks, as far as one machine can be two: the lock is another file for each.
 #[test]
 fn a_run_that_is_replaced_where_locks_reach_nobody_stops_and_leaves_the_folder_to_the_other() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "small.toml", &pmma_sweep(SMALL));
-    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
-    sweep(&file, &whole, &[]).success();
+    let (place, file) = small();
+    let out = place.path("out");
     // One case that takes seconds: it is stopped while it computes, not while it writes its results. A checkpoint is due at every
     // moment, so that one would be written into the folder that is no longer its own.
     let set = [
@@ -255,9 +246,8 @@ fn a_run_that_is_replaced_where_locks_reach_nobody_stops_and_leaves_the_folder_t
     let long = ["sweep", &file, "--checkpoint-every", "0"];
     let long: Vec<&str> = long.into_iter().chain(set).collect();
     let replaced = start(&long, &out);
-    wait_for("the sweep did not start", || {
-        out.join(".contact-dma.compute.lock").exists()
-    });
+    let lock = out.join(".contact-dma.compute.lock");
+    wait_for("the sweep did not start", || lock.exists());
     stop(&replaced);
     assert!(!out.join("records").exists(), "too quick");
     for lock in [".contact-dma.lock", ".contact-dma.compute.lock"] {
@@ -266,29 +256,27 @@ fn a_run_that_is_replaced_where_locks_reach_nobody_stops_and_leaves_the_folder_t
         fs::remove_file(&lock).unwrap();
         fs::write(&lock, content).unwrap();
     }
-    sweep(&file, &out, &["--force"]).success();
+    place.done("sweep small.toml --quiet --out out --force");
     signal(&replaced, "-CONT");
     let end = replaced.wait_with_output().unwrap();
     assert_eq!(end.status.code(), Some(1));
     let told = String::from_utf8_lossy(&end.stderr);
     assert!(told.contains("/out was taken from this run"), "{told}");
-    assert_same(&out, &whole);
+    assert_same(&out, &place.path("whole"));
 }
 
 #[test]
 fn a_killed_process_leaves_its_folder_to_the_next_one_whatever_that_is() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "small.toml", &pmma_sweep(SMALL));
-    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
-    sweep(&file, &whole, &[]).success();
-    let few = folder.path().join("few");
-    for (out, more, records) in [(&out, &MANY[..], 200), (&few, &["--force"], 2)] {
-        let mut killed = begun(&file, out);
+    let (place, file) = small();
+    let many = MANY.map(|argument| format!("'{argument}'")).join(" ");
+    for (out, more, records) in [("out", &*many, 200), ("few", "--force", 2)] {
+        let folder = place.path(out);
+        let mut killed = begun(&file, &folder);
         signal(&killed, "-KILL");
         killed.wait().unwrap();
-        sweep(&file, out, more).success();
-        let (plans, found) = hashes(out);
+        place.done(&format!("sweep small.toml --quiet --out {out} {more}"));
+        let (plans, found) = hashes(&folder);
         assert!(plans.len() == 1 && found >= records, "{plans:?} {found}");
     }
-    assert_same(&few, &whole);
+    assert_same(&place.path("few"), &place.path("whole"));
 }

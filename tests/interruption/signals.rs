@@ -2,15 +2,12 @@
 
 #![cfg(all(unix, feature = "cli"))]
 
-use std::fs;
 use std::path::Path;
 use std::process::{Child, Command as Process, Stdio};
 use std::time::{Duration, Instant};
 
-use tempfile::TempDir;
-
 use crate::kills::{signal, wait_for};
-use crate::program::{pmma_sweep, write};
+use crate::program::{Place, pmma_sweep};
 use crate::segments;
 
 /// Sixty cases on so many cells along the longer side: of seconds each on 256.
@@ -41,7 +38,7 @@ fn after(words: &str, arguments: &[&str], folder: &Path) -> Child {
 
 #[test]
 fn a_command_that_has_nothing_to_keep_ends_at_once() {
-    let folder = TempDir::new().unwrap();
+    let place = Place::new();
     // Whoever runs the tests may ignore them.
     let listening = match cfg!(target_os = "linux") {
         true => "set -- env --default-signal=HUP \"$@\";",
@@ -55,7 +52,7 @@ fn a_command_that_has_nothing_to_keep_ends_at_once() {
     for arguments in commands {
         for how in ["-TERM", "-INT", "-HUP"] {
             // It waits for an input that does not come.
-            let mut child = after(listening, arguments, folder.path());
+            let mut child = after(listening, arguments, &place.path(""));
             std::thread::sleep(Duration::from_millis(300));
             let sent = Instant::now();
             signal(&child, how);
@@ -68,11 +65,10 @@ fn a_command_that_has_nothing_to_keep_ends_at_once() {
 
 #[test]
 fn a_hangup_is_nothing_where_whoever_started_it_ignores_it() {
-    let folder = TempDir::new().unwrap();
-    write(&folder, "cells.toml", &on_cells(256));
-    let out = folder.path().join("out");
+    let place = Place::with("cells.toml", &on_cells(256));
+    let out = place.path("out");
     let sweep = ["sweep", "cells.toml", "--no-figures", "--out", "out"];
-    let mut child = after("trap '' HUP;", &sweep, folder.path());
+    let mut child = after("trap '' HUP;", &sweep, &place.path(""));
     wait_for("no case was finished", || segments::count(&out) > 0);
     signal(&child, "-HUP");
     let before = segments::count(&out);
@@ -83,25 +79,25 @@ fn a_hangup_is_nothing_where_whoever_started_it_ignores_it() {
 
 #[test]
 fn a_file_that_grows_beyond_its_limit_is_an_error_and_not_the_end() {
-    let folder = TempDir::new().unwrap();
-    write(&folder, "cells.toml", &on_cells(16));
+    let place = Place::with("cells.toml", &on_cells(16));
     let sweep = ["sweep", "cells.toml", "--quiet", "--out", "out"];
     // Blocks of 512 bytes.
-    let child = after("ulimit -f 48;", &sweep, folder.path());
+    let child = after("ulimit -f 48;", &sweep, &place.path(""));
     let ended = child.wait_with_output().unwrap();
     let said = String::from_utf8(ended.stderr).unwrap();
     assert_eq!(ended.status.code(), Some(1), "{said}");
     assert!(said.contains("File too large"), "{said}");
     // With more room it goes on from what is there.
-    let ended = after("", &sweep, folder.path()).wait_with_output().unwrap();
+    let ended = after("", &sweep, &place.path(""))
+        .wait_with_output()
+        .unwrap();
     assert_eq!(ended.status.code(), Some(0));
-    let run = fs::read_to_string(folder.path().join("out/run.json")).unwrap();
+    let run = place.text("out/run.json");
     assert!(!run.contains("\"cases_found\": 0,"), "{run}");
     // Tables have room, the archive of all cycles has not: it is as large as each of its arrays once more.
     let report = ["report", "out", "--no-figures", "--quiet"];
-    let whole = folder.path().join("out/cycles.npz");
-    let blocks = fs::metadata(&whole).unwrap().len() / 512 - 8;
-    let child = after(&format!("ulimit -f {blocks};"), &report, folder.path());
+    let blocks = place.bytes("out/cycles.npz").len() / 512 - 8;
+    let child = after(&format!("ulimit -f {blocks};"), &report, &place.path(""));
     let ended = child.wait_with_output().unwrap();
     let said = String::from_utf8(ended.stderr).unwrap();
     assert_eq!(ended.status.code(), Some(1), "{said}");

@@ -11,10 +11,7 @@ use crate::kills::{
     Random, assert_same, leave_half_a_file, newest, results, set_clock_back_and_forth, signal,
     wait_for,
 };
-use crate::program::{program, write};
-use predicates::prelude::*;
-use predicates::str::contains;
-use tempfile::TempDir;
+use crate::program::{Place, Run};
 
 /// Contact on cells that opens and closes, jumps, and is asked for surfaces early and late.
 const CELLS: &str = r#"title = "cells"
@@ -82,17 +79,21 @@ profiles_at = ["10 s"]
 springs = 64
 "#;
 
-fn simulate(file: &str, out: &Path, more: &[&str]) -> assert_cmd::assert::Assert {
-    let mut command = program();
-    command
-        .args(["simulate", file, "--out"])
-        .arg(out)
-        .args(more);
-    command.assert()
+/// A folder with a history.
+fn of(text: &str) -> Place {
+    Place::with("history.toml", text)
 }
 
-fn start(file: &str, out: &Path, more: &[&str]) -> Child {
-    crate::kills::start(&[&["simulate", file], more].concat(), out)
+/// Follows the history of a folder, into `out`.
+fn simulate(place: &Place, more: &str) -> Run {
+    place.run(&format!("simulate history.toml --out out {more}"))
+}
+
+/// Starts that.
+fn start(place: &Place, more: &[&str]) -> Child {
+    let file = place.path("history.toml");
+    let arguments = [&["simulate", file.to_str().unwrap()], more].concat();
+    crate::kills::start(&arguments, &place.path("out"))
 }
 
 const OFTEN: [&str; 2] = ["--checkpoint-every", "0"];
@@ -106,16 +107,15 @@ fn wait_for_progress(folder: &Path, before: Option<SystemTime>) {
 
 #[test]
 fn a_history_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
-    let folder = TempDir::new().unwrap();
     for (name, text) in [("cells", CELLS), ("fluid", FLUID), ("direct", DIRECT)] {
-        let file = write(&folder, "history.toml", text);
-        let whole = folder.path().join(format!("{name}-whole"));
-        simulate(&file, &whole, &["--quiet"]).success().stderr("");
-        assert!(!whole.join("checkpoints").exists());
-        let out = folder.path().join(format!("{name}-out"));
+        let place = of(text);
+        let run = place.done("simulate history.toml --quiet --out whole");
+        assert_eq!(run.stderr, "");
+        assert!(!place.has("whole/checkpoints"));
+        let out = place.path("out");
         let checkpoints = out.join("checkpoints");
         for how in ["-KILL", "-TERM", "-KILL"] {
-            let mut child = start(&file, &out, &OFTEN);
+            let mut child = start(&place, &OFTEN);
             wait_for_progress(&checkpoints, newest(&checkpoints));
             signal(&child, how);
             let status = child.wait().unwrap();
@@ -126,12 +126,11 @@ fn a_history_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
             assert!(checkpoints.join("history").exists(), "{name}: too quick");
             set_clock_back_and_forth(&out);
         }
-        simulate(&file, &out, &[])
-            .success()
-            .stderr(contains("steps were already done"))
-            .stderr(contains(" 0 of").not());
+        let said = simulate(&place, "").ended(0).stderr;
+        assert!(said.contains("steps were already done"), "{said}");
+        assert!(!said.contains(" 0 of"), "{said}");
         assert!(!checkpoints.exists());
-        assert_same(&out, &whole);
+        assert_same(&out, &place.path("whole"));
     }
 }
 
@@ -139,19 +138,16 @@ fn a_history_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
 #[test]
 fn kills_at_any_moment_lose_nothing() {
     let kills = std::env::var("CONTACT_DMA_KILLS").map_or(10, |text| text.parse().unwrap());
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "cells.toml", CELLS);
-    let whole = folder.path().join("whole");
+    let place = of(CELLS);
     let started = Instant::now();
-    simulate(&file, &whole, &["--quiet"]).success();
+    place.done("simulate history.toml --quiet --out whole");
     let span = started.elapsed();
     let mut random = Random(20_261_121);
     let (mut killed, mut round) = (0, 0);
     while killed < kills {
-        let out = folder.path().join(format!("out-{round}"));
         round += 1;
         loop {
-            let mut child = start(&file, &out, &OFTEN);
+            let mut child = start(&place, &OFTEN);
             std::thread::sleep(span.mul_f64(random.unit()));
             let was_running = child.try_wait().unwrap().is_none();
             if was_running {
@@ -164,47 +160,35 @@ fn kills_at_any_moment_lose_nothing() {
                 break;
             }
         }
-        simulate(&file, &out, &["--quiet"]).success();
-        assert_same(&out, &whole);
-        fs::remove_dir_all(&out).unwrap();
+        simulate(&place, "--quiet").ended(0);
+        assert_same(&place.path("out"), &place.path("whole"));
+        fs::remove_dir_all(place.path("out")).unwrap();
     }
     println!("{killed} kills in {round} folders");
 }
 
 #[test]
 fn a_termination_is_heard_within_a_long_instant_and_leaves_a_checkpoint() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "cells.toml", CELLS);
-    let out = folder.path().join("out");
-    let mut child = start(
-        &file,
-        &out,
-        &[
-            "--set",
-            "solver.cells=512",
-            "--set",
-            "solver.tolerance=1e-13",
-        ],
-    );
-    wait_for("the history did not start", || {
-        out.join("resolved.toml").exists()
-    });
+    let place = of(CELLS);
+    let fine = "solver.tolerance=1e-13";
+    let mut child = start(&place, &["--set", "solver.cells=512", "--set", fine]);
+    let plan = place.path("out/resolved.toml");
+    wait_for("the history did not start", || plan.exists());
     std::thread::sleep(Duration::from_secs(4));
     let sent = Instant::now();
     signal(&child, "-TERM");
     assert_eq!(child.wait().unwrap().code(), Some(130));
     let took = sent.elapsed();
     assert!(took < Duration::from_secs(2), "{took:?}");
-    assert!(out.join("checkpoints/history").exists());
+    assert!(place.has("out/checkpoints/history"));
 }
 
 #[test]
 fn a_damaged_checkpoint_is_named_and_not_used() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "fluid.toml", FLUID);
-    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
-    simulate(&file, &whole, &["--quiet"]).success();
-    let mut child = start(&file, &out, &OFTEN);
+    let place = of(FLUID);
+    let out = place.path("out");
+    place.done("simulate history.toml --quiet --out whole");
+    let mut child = start(&place, &OFTEN);
     let path = out.join("checkpoints/history");
     wait_for("no checkpoint was written", || path.exists());
     signal(&child, "-KILL");
@@ -217,29 +201,30 @@ fn a_damaged_checkpoint_is_named_and_not_used() {
     for name in ["profiles", "fields"] {
         leave_half_a_file(&out.join(name));
     }
-    simulate(&file, &out, &[])
-        .success()
-        .stderr(contains("checkpoints/history: it is damaged or torn"))
-        .stderr(contains("from its beginning"));
-    assert_same(&out, &whole);
+    let said = simulate(&place, "").ended(0).stderr;
+    assert!(
+        said.contains("checkpoints/history: it is damaged or torn"),
+        "{said}"
+    );
+    assert!(said.contains("from its beginning"), "{said}");
+    assert_same(&out, &place.path("whole"));
 }
 
 #[test]
 fn a_changed_scenario_is_refused_and_its_checkpoint_stays() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "fluid.toml", FLUID);
-    let out = folder.path().join("out");
-    let mut child = start(&file, &out, &OFTEN);
+    let place = of(FLUID);
+    let out = place.path("out");
+    let mut child = start(&place, &OFTEN);
     wait_for_progress(&out.join("checkpoints"), None);
     signal(&child, "-TERM");
     child.wait().unwrap();
     let before = results(&out);
-    let changed = ["--set", "time.step=\"0.3 s\""];
-    simulate(&file, &out, &changed)
-        .code(2)
-        .stderr(contains("- step = \"0.1 s\"").and(contains("+ step = \"0.3 s\"")));
+    let changed = "--set 'time.step=\"0.3 s\"'";
+    let refused = simulate(&place, changed).ended(2).stderr;
+    for part in ["- step = \"0.1 s\"", "+ step = \"0.3 s\""] {
+        assert!(refused.contains(part), "{refused}");
+    }
     assert_eq!(results(&out), before);
-    simulate(&file, &out, &[&changed[..], &["--force"]].concat())
-        .success()
-        .stderr("");
+    let forced = simulate(&place, &format!("{changed} --force")).ended(0);
+    assert_eq!(forced.stderr, "");
 }

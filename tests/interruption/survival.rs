@@ -12,11 +12,8 @@ use crate::kills::{
     Random, assert_same, leave_half_a_file, newest, results, set_clock_back_and_forth, signal,
     wait_for,
 };
-use crate::program::{program, write};
+use crate::program::{Place, Run};
 use crate::segments::{self, Stored};
-use predicates::prelude::*;
-use predicates::str::contains;
-use tempfile::TempDir;
 
 /// Sixty cases of a few milliseconds.
 const CHEAP: &str = r#"title = "cheap"
@@ -57,54 +54,66 @@ max_cycles = 100000
 springs = 160
 "#;
 
+/// A folder with a sweep file.
+fn of(text: &str) -> Place {
+    Place::with("sweep.toml", text)
+}
+
 /// A sweep that nothing disturbs.
-fn undisturbed(text: &str) -> TempDir {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "whole.toml", text);
-    sweep(&file, &folder.path().join("whole"), &["--quiet"])
-        .success()
-        .stderr("");
-    folder
+fn undisturbed(text: &str) -> Place {
+    let place = of(text);
+    let run = place.done("sweep sweep.toml --quiet --out whole");
+    assert_eq!(run.stderr, "");
+    place
 }
 
 /// [`CHEAP`] and [`LONG`] undisturbed, computed once for all tests.
-static WHOLE: [LazyLock<TempDir>; 2] = [
+static WHOLE: [LazyLock<Place>; 2] = [
     LazyLock::new(|| undisturbed(CHEAP)),
     LazyLock::new(|| undisturbed(LONG)),
 ];
 
 fn whole_cheap() -> PathBuf {
-    WHOLE[0].path().join("whole")
+    WHOLE[0].path("whole")
 }
 
 fn whole_long() -> PathBuf {
-    WHOLE[1].path().join("whole")
+    WHOLE[1].path("whole")
 }
 
-/// A copy of [`whole_cheap`] in a folder, to be damaged.
-fn copy_of_cheap(folder: &TempDir) -> PathBuf {
-    let out = folder.path().join("out");
+/// A copy of [`whole_cheap`] in `out`, to be damaged.
+fn copy_of_cheap() -> (Place, PathBuf) {
+    let place = of(CHEAP);
+    let out = place.path("out");
     let mut copying = Process::new("cp");
     copying.arg("-r").arg(whole_cheap()).arg(&out);
     assert!(copying.status().unwrap().success());
-    out
+    (place, out)
 }
 
-fn start(file: &str, out: &Path, more: &[&str]) -> Child {
-    crate::kills::start(&[&["sweep", file], more].concat(), out)
+/// Starts the sweep of a folder, into `out`.
+fn start(place: &Place, more: &[&str]) -> Child {
+    let file = place.path("sweep.toml");
+    let arguments = [&["sweep", file.to_str().unwrap()], more].concat();
+    crate::kills::start(&arguments, &place.path("out"))
 }
 
-fn sweep(file: &str, out: &Path, more: &[&str]) -> assert_cmd::assert::Assert {
-    let mut command = program();
-    command.args(["sweep", file, "--out"]).arg(out).args(more);
-    command.assert()
+/// Runs the sweep of a folder, into `out`.
+fn sweep(place: &Place, more: &str) -> Run {
+    place.run(&format!("sweep sweep.toml --out out {more}"))
+}
+
+/// All of this stands on standard error.
+#[track_caller]
+fn told(stderr: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(stderr.contains(part), "{part} is not in:\n{stderr}");
+    }
 }
 
 #[test]
 fn finished_cases_are_read_and_damaged_ones_named_and_computed_again() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "cheap.toml", CHEAP);
-    let (whole, out) = (whole_cheap(), copy_of_cheap(&folder));
+    let (place, out) = copy_of_cheap();
     let mut records = segments::read(&out);
     // Number 30 of the cases is torn, as if its process had been killed: the end of its own segment.
     let torn = records.remove(30);
@@ -121,104 +130,79 @@ fn finished_cases_are_read_and_damaged_ones_named_and_computed_again() {
     fs::write(segments::one(&out), flipped).unwrap();
     let named = format!("one.segment: bytes {from} to {to} are damaged or torn");
     fs::remove_file(out.join("sweep.csv")).unwrap();
-    sweep(&file, &out, &["--threads", "1"])
-        .success()
-        .stderr(contains("48 of 60 cases were already done"))
-        .stderr(contains(named))
-        .stderr(contains("torn.segment: its last").and(contains("without its end")));
-    assert_same(&out, &whole);
-    sweep(&file, &out, &[])
-        .success()
-        .stderr(contains("60 of 60 cases were already done"));
-    assert_same(&out, &whole);
+    let again = sweep(&place, "--threads 1").ended(0).stderr;
+    told(&again, &["48 of 60 cases were already done", &named]);
+    told(&again, &["torn.segment: its last", "without its end"]);
+    assert_same(&out, &whole_cheap());
+    let again = sweep(&place, "").ended(0).stderr;
+    told(&again, &["60 of 60 cases were already done"]);
+    assert_same(&out, &whole_cheap());
 }
 
 #[test]
 fn a_changed_sweep_is_refused_with_what_changed() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "cheap.toml", CHEAP);
-    let out = folder.path().join("out");
-    let few = ["--quiet", "--set", "sweep.angular_frequency=[0.01]"];
-    sweep(&file, &out, &few).success();
+    let place = of(CHEAP);
+    let out = place.path("out");
+    let few = "--quiet --set sweep.angular_frequency=[0.01]";
+    sweep(&place, few).ended(0);
     let before = results(&out);
-    sweep(
-        &file,
-        &out,
-        &[&few[..], &["--set", "cycle.steps=48"]].concat(),
-    )
-    .code(2)
-    .stderr(contains("- steps = 40").and(contains("+ steps = 48")))
-    .stderr(contains("radius").not());
+    let other = format!("{few} --set cycle.steps=48");
+    let refused = sweep(&place, &other).ended(2).stderr;
+    told(&refused, &["- steps = 40", "+ steps = 48"]);
+    assert!(!refused.contains("radius"), "{refused}");
     assert_eq!(results(&out), before);
-    let steps = ["--set", "cycle.steps=48", "--force"];
-    sweep(&file, &out, &[&few[..], &steps].concat()).success();
+    sweep(&place, &format!("{other} --force")).ended(0);
 }
 
 #[test]
 fn a_record_of_a_newer_program_is_not_replaced_unless_told_to() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "cheap.toml", CHEAP);
-    let out = folder.path().join("out");
-    let one = ["--quiet", "--set", "sweep.angular_frequency=[0.01]"];
-    sweep(&file, &out, &one).success();
+    let place = of(CHEAP);
+    let out = place.path("out");
+    let one = "--quiet --set sweep.angular_frequency=[0.01]";
+    sweep(&place, one).ended(0);
     let whole = results(&out);
     let mut records = segments::read(&out);
-    assert_eq!(
-        records[0].heading.program_version,
-        env!("CARGO_PKG_VERSION")
-    );
+    let version = &records[0].heading.program_version;
+    assert_eq!(version, env!("CARGO_PKG_VERSION"));
     records[0].heading.program_version = "1000.0.0".to_owned();
     segments::replace(&out, &records);
-    sweep(&file, &out, &one)
-        .code(2)
-        .stderr(contains("1000.0.0").and(contains("--force")));
+    told(
+        &sweep(&place, one).ended(2).stderr,
+        &["1000.0.0", "--force"],
+    );
     assert_eq!(segments::read(&out), records);
-    sweep(&file, &out, &[&one[..], &["--force"]].concat()).success();
-    let own: Vec<_> = segments::read(&out)
-        .into_iter()
-        .filter(|r| *r != records[0])
-        .collect();
+    sweep(&place, &format!("{one} --force")).ended(0);
+    let mut own = segments::read(&out);
+    own.retain(|record| *record != records[0]);
     segments::replace(&out, &own);
     assert_eq!(results(&out), whole);
 }
 
 #[test]
 fn records_of_another_build_are_computed_again_by_a_sweep_and_shown_by_a_report() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "cheap.toml", CHEAP);
-    let (whole, out) = (whole_cheap(), copy_of_cheap(&folder));
+    let (place, out) = copy_of_cheap();
     let mut records = segments::read(&out);
     records[5].heading.build = "0123456789abcdef".to_owned();
     segments::replace(&out, &records);
-    let report = || {
-        let mut command = program();
-        command.arg("report").arg(&out).assert()
-    };
-    report().success().stderr(
-        contains("one.segment: it was written by another build").and(contains("as they are")),
-    );
+    let of_another = "one.segment: it was written by another build";
+    let report = place.done("report out").stderr;
+    told(&report, &[of_another, "as they are"]);
     assert_eq!(segments::read(&out), records);
     // One result is that of one build.
-    let merged = folder.path().join("merged");
-    program()
-        .arg("merge")
-        .arg(&out)
-        .arg("--out")
-        .arg(&merged)
-        .assert()
-        .code(1)
-        .stderr(contains("one.segment: it was written by another build"))
-        .stderr(contains("1 of 60 cases are in none of the parts"));
-    sweep(&file, &out, &[])
-        .success()
-        .stderr(contains("59 of 60 cases were already done"))
-        .stderr(contains("one.segment: it was written by another build").and(contains("again")));
-    let own: Vec<_> = segments::read(&out)
-        .into_iter()
-        .filter(|r| *r != records[5])
-        .collect();
+    let merge = place.ends("merge out --out merged", 1);
+    told(
+        &merge,
+        &[of_another, "1 of 60 cases are in none of the parts"],
+    );
+    let again = sweep(&place, "").ended(0).stderr;
+    told(
+        &again,
+        &["59 of 60 cases were already done", of_another, "again"],
+    );
+    let mut own = segments::read(&out);
+    own.retain(|record| *record != records[5]);
     segments::replace(&out, &own);
-    assert_same(&out, &whole);
+    assert_same(&out, &whole_cheap());
 }
 
 /// Ten kills; `CONTACT_DMA_KILLS=100 cargo test --test interruption survival` for more.
@@ -228,20 +212,17 @@ fn kills_at_any_moment_lose_nothing() {
         .ok()
         .and_then(|text| text.parse().ok())
         .unwrap_or(10);
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "cheap.toml", CHEAP);
-    let whole = folder.path().join("whole");
+    let place = of(CHEAP);
     let started = Instant::now();
-    sweep(&file, &whole, &["--quiet"]).success();
+    place.done("sweep sweep.toml --quiet --out whole");
     let span = started.elapsed();
     let mut random = Random(20_260_801);
     let (mut killed, mut same, mut round) = (0, 0, 0);
     while killed < kills {
-        let out = folder.path().join(format!("out-{round}"));
         round += 1;
         // Several kills on one folder, until a run comes to its end before its kill.
         loop {
-            let mut child = start(&file, &out, &[]);
+            let mut child = start(&place, &[]);
             std::thread::sleep(span.mul_f64(random.unit()));
             let was_running = child.try_wait().unwrap().is_none();
             if was_running {
@@ -254,17 +235,16 @@ fn kills_at_any_moment_lose_nothing() {
                 break;
             }
         }
-        sweep(&file, &out, &["--quiet"]).success();
-        assert_same(&out, &whole);
+        sweep(&place, "--quiet").ended(0);
+        assert_same(&place.path("out"), &place.path("whole"));
         same += 1;
-        fs::remove_dir_all(&out).unwrap();
+        fs::remove_dir_all(place.path("out")).unwrap();
     }
     println!("{killed} kills in {round} folders, {same} of {round} ended as if undisturbed");
 }
 
 #[test]
 fn a_long_case_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
-    let folder = TempDir::new().unwrap();
     let searched = LONG
         .replace("method = \"march\"\ntolerance = 1e-9", "tolerance = 1e-12")
         .replace("steps = 200", "steps = 100000");
@@ -274,20 +254,19 @@ fn a_long_case_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
         .replace("springs = 160", "engine = \"half-space\"\ncells = 32");
     let ways = [("march", LONG), ("search", &searched), ("cells", &cells)];
     for (name, text) in ways {
-        let file = write(&folder, "long.toml", text);
+        let place = of(text);
         let whole = match name {
             "march" => whole_long(),
             _ => {
-                let whole = folder.path().join(format!("{name}-whole"));
-                sweep(&file, &whole, &["--quiet"]).success();
-                whole
+                place.done("sweep sweep.toml --quiet --out whole");
+                place.path("whole")
             }
         };
-        let out = folder.path().join(format!("{name}-out"));
-        let often = ["--checkpoint-every", "0", "--threads", "1"];
+        let out = place.path("out");
         let case = out.join("checkpoints/0000");
         for (round, how) in ["-KILL", "-TERM"].into_iter().enumerate() {
-            let mut child = start(&file, &out, &often);
+            let often = ["--checkpoint-every", "0", "--threads", "1"];
+            let mut child = start(&place, &often);
             let before = newest(&case);
             wait_for("no checkpoint was written", || newest(&case) > before);
             std::thread::sleep(Duration::from_millis(30));
@@ -299,7 +278,7 @@ fn a_long_case_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
             );
             assert_eq!(segments::count(&out), 0, "{name}: too quick");
         }
-        sweep(&file, &out, &["--quiet"]).success();
+        sweep(&place, "--quiet").ended(0);
         assert!(!out.join("checkpoints").exists());
         assert_same(&out, &whole);
     }
@@ -309,14 +288,13 @@ fn a_long_case_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
 /// decide nothing.
 #[test]
 fn a_clock_that_jumps_between_interruption_and_resumption_changes_nothing() {
-    let folder = TempDir::new().unwrap();
-    for (name, text, whole, what) in [
-        ("cheap", CHEAP, whole_cheap(), "records"),
-        ("long", LONG, whole_long(), "checkpoints/0000"),
+    for (text, whole, what) in [
+        (CHEAP, whole_cheap(), "records"),
+        (LONG, whole_long(), "checkpoints/0000"),
     ] {
-        let file = write(&folder, "clock.toml", text);
-        let out = folder.path().join(format!("{name}-out"));
-        let mut child = start(&file, &out, &["--checkpoint-every", "0", "--threads", "1"]);
+        let place = of(text);
+        let out = place.path("out");
+        let mut child = start(&place, &["--checkpoint-every", "0", "--threads", "1"]);
         wait_for("nothing was written", || newest(&out.join(what)).is_some());
         signal(&child, "-TERM");
         assert_eq!(child.wait().unwrap().code(), Some(130));
@@ -324,14 +302,13 @@ fn a_clock_that_jumps_between_interruption_and_resumption_changes_nothing() {
         let left_over = leave_half_a_file(&out);
         set_clock_back_and_forth(&out);
         let kept = segments::count(&out);
-        sweep(&file, &out, &[])
-            .success()
-            .stderr(contains(format!("{kept} of 60 cases were already done")).or(contains("1/1")))
-            .stderr(contains("damaged").not());
+        let said = sweep(&place, "").ended(0).stderr;
+        let found = format!("{kept} of 60 cases were already done");
+        assert!(said.contains(&found) || said.contains("1/1"), "{said}");
+        assert!(!said.contains("damaged"), "{said}");
         assert!(!left_over.exists());
         assert_same(&out, &whole);
-        let run: serde_json::Value =
-            serde_json::from_slice(&fs::read(out.join("run.json")).unwrap()).unwrap();
+        let run = place.json("out/run.json");
         let wall_s = run["wall_time_s"].as_f64().unwrap();
         assert!((0.0..600.0).contains(&wall_s), "{wall_s}");
     }
@@ -369,11 +346,9 @@ fn the_time_of_day_is_asked_for_stamps_alone() {
 
 #[test]
 fn a_damaged_checkpoint_is_passed_over() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "long.toml", LONG);
-    let (whole, out) = (whole_long(), folder.path().join("out"));
-    let mut child = start(&file, &out, &["--checkpoint-every", "0"]);
-    let path = out.join("checkpoints/0000/00.finished");
+    let place = of(LONG);
+    let mut child = start(&place, &["--checkpoint-every", "0"]);
+    let path = place.path("out").join("checkpoints/0000/00.finished");
     wait_for("no checkpoint was written", || path.exists());
     signal(&child, "-KILL");
     child.wait().unwrap();
@@ -381,41 +356,34 @@ fn a_damaged_checkpoint_is_passed_over() {
     let middle = bytes.len() / 2;
     bytes[middle] ^= 1;
     fs::write(&path, bytes).unwrap();
-    sweep(&file, &out, &["--quiet"]).success();
-    assert_same(&out, &whole);
+    sweep(&place, "--quiet").ended(0);
+    assert_same(&place.path("out"), &whole_long());
 }
 
 #[test]
 fn a_termination_is_heard_within_an_instant_of_the_finest_grid() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "cheap.toml", CHEAP);
-    let out = folder.path().join("out");
-    let cells = ["--set", "solver.engine=\"half-space\"", "--set"];
-    let cells = [&cells[..], &["solver.cells=256"]].concat();
-    let mut child = start(&file, &out, &cells);
-    wait_for("the sweep did not start", || {
-        out.join("resolved.toml").exists()
-    });
+    let place = of(CHEAP);
+    let out = place.path("out");
+    let engine = "solver.engine=\"half-space\"";
+    let mut child = start(&place, &["--set", engine, "--set", "solver.cells=256"]);
+    let plan = out.join("resolved.toml");
+    wait_for("the sweep did not start", || plan.exists());
     std::thread::sleep(Duration::from_secs(2));
     let sent = Instant::now();
     signal(&child, "-TERM");
     assert_eq!(child.wait().unwrap().code(), Some(130));
-    assert!(
-        sent.elapsed() < Duration::from_secs(2),
-        "{:?}",
-        sent.elapsed()
-    );
+    let waited = sent.elapsed();
+    assert!(waited < Duration::from_secs(2), "{waited:?}");
 }
 
 /// Of more than 200 cases only those that figures choose have files of their own, and a partial report chooses others.
 #[test]
 fn the_files_of_a_partial_report_of_a_large_sweep_do_not_outlast_it() {
-    let folder = TempDir::new().unwrap();
     let many = CHEAP.replace("points = 60", "points = 240") + "[figures]\nformats = [\"svg\"]\n";
-    let file = write(&folder, "many.toml", &many);
-    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
-    sweep(&file, &whole, &["--quiet"]).success();
-    let mut child = start(&file, &out, &["--threads", "1"]);
+    let place = of(&many);
+    let out = place.path("out");
+    place.done("sweep sweep.toml --quiet --out whole");
+    let mut child = start(&place, &["--threads", "1"]);
     wait_for("no record was written", || out.join("records").exists());
     signal(&child, "-INT");
     if child.wait().unwrap().code() == Some(130) {
@@ -423,42 +391,42 @@ fn the_files_of_a_partial_report_of_a_large_sweep_do_not_outlast_it() {
         assert!(chosen(&out) > 0 && out.join("run.json").exists());
     }
     // A file of the user stays.
-    fs::write(out.join("work/notes.txt"), "mine").unwrap();
-    sweep(&file, &out, &["--quiet"]).success();
-    assert_eq!(fs::read(out.join("work/notes.txt")).unwrap(), b"mine");
+    place.put("out/work/notes.txt", "mine");
+    sweep(&place, "--quiet").ended(0);
+    assert_eq!(place.text("out/work/notes.txt"), "mine");
     fs::remove_file(out.join("work/notes.txt")).unwrap();
-    assert_same(&out, &whole);
+    assert_same(&out, &place.path("whole"));
 }
 
 #[test]
 fn a_second_interrupt_ends_the_program_at_once_and_the_next_run_goes_on() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "cheap.toml", CHEAP);
-    let (whole, out) = (whole_cheap(), folder.path().join("out"));
-    let mut child = start(&file, &out, &["--threads", "1"]);
+    let place = of(CHEAP);
+    let out = place.path("out");
+    let mut child = start(&place, &["--threads", "1"]);
     wait_for("no case was finished", || segments::count(&out) > 2);
     signal(&child, "-INT");
     signal(&child, "-INT");
     assert_eq!(child.wait().unwrap().code(), Some(130));
-    sweep(&file, &out, &["--quiet"]).success();
-    assert_same(&out, &whole);
+    sweep(&place, "--quiet").ended(0);
+    assert_same(&out, &whole_cheap());
 }
 
 #[test]
 fn a_second_process_that_computes_the_same_sweep_is_refused_and_the_first_goes_on() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "cheap.toml", CHEAP);
-    let (whole, out) = (whole_cheap(), folder.path().join("out"));
-    let mut first = start(&file, &out, &["--threads", "1"]);
+    let place = of(CHEAP);
+    let out = place.path("out");
+    let mut first = start(&place, &["--threads", "1"]);
     wait_for("no case was finished", || segments::count(&out) > 2);
-    for more in [&[][..], &["--shard", "1/2"]] {
-        sweep(&file, &out, more)
-            .code(2)
-            .stderr(contains("the same sweep is computed there").and(contains("--shard 1/2")));
+    for more in ["", "--shard 1/2"] {
+        let refused = sweep(&place, more).ended(2).stderr;
+        told(
+            &refused,
+            &["the same sweep is computed there", "--shard 1/2"],
+        );
     }
     assert_eq!(first.wait().unwrap().code(), Some(0));
-    sweep(&file, &out, &["--quiet"]).success();
-    assert_same(&out, &whole);
+    sweep(&place, "--quiet").ended(0);
+    assert_same(&out, &whole_cheap());
 }
 
 /// A file system of so many bytes, where this may be mounted; taken away at the end.
@@ -486,134 +454,98 @@ impl Drop for Small {
 
 #[test]
 fn a_full_disk_is_told_and_what_was_whole_before_stays_whole() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "cheap.toml", CHEAP);
-    let out = folder.path().join("out");
+    let place = of(CHEAP);
+    let out = place.path("out");
     let Some(disk) = Small::mount(&out, "size=200k") else {
         println!("skipped: no small file system can be mounted here");
         return;
     };
-    sweep(&file, &out, &["--quiet"])
-        .code(1)
-        .stderr(contains("cannot write").and(contains("No space left")));
+    let full = sweep(&place, "--quiet").ended(1).stderr;
+    told(&full, &["cannot write", "No space left"]);
     let records = segments::count(&out);
     assert!(records > 0);
+    let kept = place.path("kept");
     let mut copying = Process::new("cp");
-    copying.arg("-r").arg(&out).arg(folder.path().join("kept"));
+    copying.arg("-r").arg(&out).arg(&kept);
     assert!(copying.status().unwrap().success());
     drop(disk);
+    fs::remove_dir(&out).unwrap();
+    fs::rename(kept, &out).unwrap();
     // What was taken back has left no torn end.
-    let freed = folder.path().join("freed");
-    fs::rename(folder.path().join("kept"), &freed).unwrap();
-    sweep(&file, &freed, &[])
-        .success()
-        .stderr(contains(format!("{records} of 60 cases were already done")))
-        .stderr(contains("torn").not());
-    assert_same(&freed, &whole_cheap());
+    let again = sweep(&place, "").ended(0).stderr;
+    told(
+        &again,
+        &[&format!("{records} of 60 cases were already done")],
+    );
+    assert!(!again.contains("torn"), "{again}");
+    assert_same(&out, &whole_cheap());
 }
 
 #[test]
 fn folders_that_cannot_be_written_or_are_not_there_are_named() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "cheap.toml", CHEAP);
-    let out = folder.path().join("out");
+    let place = of(CHEAP);
+    let out = place.path("out");
     match Small::mount(&out, "size=200k,ro") {
         Some(_disk) => {
-            sweep(&file, &out, &["--quiet"])
-                .code(1)
-                .stderr(contains("out/resolved.toml").and(contains("Read-only")));
+            let refused = sweep(&place, "--quiet").ended(1).stderr;
+            told(&refused, &["out/resolved.toml", "Read-only"]);
         }
         None => println!("skipped: no read-only file system can be mounted here"),
     }
     // A file where the folder of records should be.
-    let blocked = folder.path().join("blocked");
-    fs::create_dir(&blocked).unwrap();
-    fs::write(blocked.join("records"), "").unwrap();
-    sweep(&file, &blocked, &["--quiet", "--force"])
-        .code(1)
-        .stderr(contains("blocked/records"));
-    let nowhere = folder.path().join("nowhere");
-    program()
-        .arg("report")
-        .arg(&nowhere)
-        .assert()
-        .code(2)
-        .stderr(contains("nowhere").and(contains("resolved.toml")));
-    program()
-        .arg("merge")
-        .arg(&nowhere)
-        .arg("--out")
-        .arg(&out)
-        .assert()
-        .code(2)
-        .stderr(contains("nowhere"));
+    place.put("blocked/records", "");
+    let refused = place.ends("sweep sweep.toml --quiet --force --out blocked", 1);
+    told(&refused, &["blocked/records"]);
+    told(
+        &place.ends("report nowhere", 2),
+        &["nowhere", "resolved.toml"],
+    );
+    told(&place.ends("merge nowhere --out out", 2), &["nowhere"]);
 }
 
 #[test]
 fn shards_in_folders_of_their_own_merge_to_the_result_of_one_process() {
-    let folder = TempDir::new().unwrap();
-    let refined = CHEAP
-        .replace("points = 60", "points = 12")
-        .replace("[cycle]", "refine = true\n[cycle]");
-    let file = write(&folder, "cheap.toml", &refined);
-    let whole = folder.path().join("whole");
-    sweep(&file, &whole, &["--quiet"]).success();
-    let part = |k: usize| folder.path().join(format!("part-{k}"));
+    let refined = CHEAP.replace("points = 60", "points = 12");
+    let place = of(&refined.replace("[cycle]", "refine = true\n[cycle]"));
+    place.done("sweep sweep.toml --quiet --out whole");
     for k in 1..=3 {
-        let shard = format!("{k}/3");
-        sweep(&file, &part(k), &["--shard", &shard])
-            .success()
-            .stdout(contains("4 of 4 cases are done").and(contains("merge")));
-        assert!(part(k).join(format!("run-{k}-of-3.json")).exists());
+        let part = place.done(&format!("sweep sweep.toml --shard {k}/3 --out part-{k}"));
+        part.says(&["4 of 4 cases are done", "merge"]);
+        assert!(place.has(&format!("part-{k}/run-{k}-of-3.json")));
     }
-    let out = folder.path().join("out");
-    let merge = |parts: &[usize]| {
-        let mut command = program();
-        command.arg("merge").args(parts.iter().map(|k| part(*k)));
-        command.arg("--out").arg(&out).arg("--quiet").assert()
-    };
-    merge(&[1, 3])
-        .code(1)
-        .stderr(contains("4 of 12 cases are in none of the parts"))
-        .stderr(contains("case 1: ω = "));
-    merge(&[1, 2, 3]).success();
-    assert_same(&out, &whole);
-    sweep(
-        &file,
-        &part(4),
-        &["--quiet", "--shard", "1/3", "--set", "cycle.steps=48"],
-    )
-    .success();
-    merge(&[1, 2, 4])
-        .code(2)
-        .stderr(contains("another sweep").and(contains("+ steps = 48")));
+    let few = place.ends("merge part-1 part-3 --out out --quiet", 1);
+    told(
+        &few,
+        &["4 of 12 cases are in none of the parts", "case 1: ω = "],
+    );
+    place.done("merge part-1 part-2 part-3 --out out --quiet");
+    assert_same(&place.path("out"), &place.path("whole"));
+    place.done("sweep sweep.toml --quiet --shard 1/3 --set cycle.steps=48 --out part-4");
+    let other = place.ends("merge part-1 part-2 part-4 --out out --quiet", 2);
+    told(&other, &["another sweep", "+ steps = 48"]);
 }
 
 #[test]
 fn shards_in_one_folder_end_with_the_result_of_one_process() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "cheap.toml", CHEAP);
-    let (whole, out) = (whole_cheap(), folder.path().join("out"));
-    sweep(&file, &out, &["--quiet", "--shard", "2/3"]).success();
+    let place = of(CHEAP);
+    let out = place.path("out");
+    sweep(&place, "--quiet --shard 2/3").ended(0);
     // The same shard twice, and the two others, all at once.
     let shards = ["1/3", "2/3", "3/3", "3/3"];
     let children: Vec<Child> = shards
         .into_iter()
-        .map(|shard| start(&file, &out, &["--shard", shard, "--threads", "1"]))
+        .map(|shard| start(&place, &["--shard", shard, "--threads", "1"]))
         .collect();
     for mut child in children {
         assert_eq!(child.wait().unwrap().code(), Some(0));
     }
-    assert_same(&out, &whole);
-    sweep(&file, &out, &["--shard", "4/3"])
-        .code(2)
-        .stderr(contains("2/8"));
+    assert_same(&out, &whole_cheap());
+    told(&sweep(&place, "--shard 4/3").ended(2).stderr, &["2/8"]);
 }
 
 #[test]
 fn tables_and_figures_are_drawn_again_from_records_alone() {
-    let folder = TempDir::new().unwrap();
-    let (whole, out) = (whole_cheap(), copy_of_cheap(&folder));
+    let (place, out) = copy_of_cheap();
     for name in [
         "sweep.csv",
         "summary.json",
@@ -623,31 +555,23 @@ fn tables_and_figures_are_drawn_again_from_records_alone() {
         fs::remove_file(out.join(name)).unwrap();
     }
     fs::remove_dir_all(out.join("loops")).unwrap();
-    let report = || {
-        let mut command = program();
-        command.arg("report").arg(&out).assert()
-    };
-    report().success().stdout(contains("Peak: "));
-    assert_same(&out, &whole);
+    place.done("report out").says(&["Peak: "]);
+    assert_same(&out, &whole_cheap());
     // Without the losses that locate the peak everything else is drawn, and what the peak takes is said.
     let records = segments::read(&out);
     let (cases, peaks): (Vec<_>, Vec<_>) = records.into_iter().partition(Stored::is_of_sweep);
     assert!(!peaks.is_empty());
     segments::replace(&out, &cases);
     fs::remove_file(out.join("energy-loss.svg")).unwrap();
-    let printed = report().success().get_output().stdout.clone();
-    let printed = String::from_utf8(printed).unwrap();
-    let words = printed.split_whitespace().collect::<Vec<_>>().join(" ");
-    for said in [
+    let report = place.done("report out");
+    assert!(!report.stdout.contains("nterrupted"), "{report:?}");
+    report.says(&[
         "Peak not located: losses near ",
         " have no record in ",
         "`contact-dma sweep FILE --out ",
-    ] {
-        assert!(words.contains(said), "{printed}");
-    }
-    assert!(!words.contains("nterrupted"), "{printed}");
+    ]);
     assert!(out.join("energy-loss.svg").exists());
-    let summary = fs::read_to_string(out.join("summary.json")).unwrap();
+    let summary = place.text("out/summary.json");
     assert!(summary.contains("\"interrupted\": false"), "{summary}");
     // A record that is gone leaves a gap; nothing is solved for it.
     let without: Vec<_> = cases
@@ -657,20 +581,18 @@ fn tables_and_figures_are_drawn_again_from_records_alone() {
         .cloned()
         .collect();
     segments::replace(&out, &without);
-    report().code(3).stdout(contains("59 of 60 cases are done"));
+    let report = place.run("report out").ended(3);
+    report.says(&["59 of 60 cases are done"]);
     assert_eq!(segments::read(&out), without);
 }
 
 #[test]
 fn more_threads_than_any_machine_has_a_use_for_are_not_started() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "cheap.toml", CHEAP);
-    let (few, many) = (folder.path().join("few"), folder.path().join("many"));
-    sweep(&file, &few, &["--quiet", "--threads", "1"]).success();
-    sweep(&file, &many, &["--quiet", "--threads", "100000"]).success();
-    assert_same(&few, &many);
-    let run = fs::read(many.join("run.json")).unwrap();
-    let run: serde_json::Value = serde_json::from_slice(&run).unwrap();
+    let place = of(CHEAP);
+    place.done("sweep sweep.toml --quiet --threads 1 --out few");
+    place.done("sweep sweep.toml --quiet --threads 100000 --out many");
+    assert_same(&place.path("few"), &place.path("many"));
+    let run = place.json("many/run.json");
     let processors = std::thread::available_parallelism().unwrap().get();
     assert_eq!(run["threads"], 4 * processors);
     let processor = run["processor"].as_str().unwrap();
@@ -679,22 +601,15 @@ fn more_threads_than_any_machine_has_a_use_for_are_not_started() {
 
 #[test]
 fn pictures_and_run_json_say_where_they_come_from() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "cheap.toml", CHEAP);
-    let out = folder.path().join("out");
-    sweep(&file, &out, &["--quiet", "--threads", "2"]).success();
-    let json = |name: &str| -> serde_json::Value {
-        serde_json::from_slice(&fs::read(out.join(name)).unwrap()).unwrap()
-    };
-    let (run, summary) = (json("run.json"), json("summary.json"));
+    let place = of(CHEAP);
+    sweep(&place, "--quiet --threads 2").ended(0);
+    let [run, summary] = ["run", "summary"].map(|name| place.json(&format!("out/{name}.json")));
     let hash = summary["sweep_hash"].as_str().unwrap();
     assert_eq!(run["sweep_hash"], hash);
     assert_eq!(run["program_version"], env!("CARGO_PKG_VERSION"));
     assert_eq!(run["build"], contact_dma::sweep::store::provenance::BUILD);
-    assert_eq!(
-        (&run["threads"], &run["cases_computed"]),
-        (&2.into(), &60.into())
-    );
+    assert_eq!(run["threads"], 2);
+    assert_eq!(run["cases_computed"], 60);
     assert_eq!(run["engine"], "axisymmetric");
     for time in ["wall_time_s", "cpu_time_s"] {
         let time = run[time].as_f64().unwrap();
@@ -702,10 +617,9 @@ fn pictures_and_run_json_say_where_they_come_from() {
     }
     let started = run["started"].as_str().unwrap();
     assert!(started.ends_with('Z') && started.len() == 20, "{started}");
-    let svg = fs::read_to_string(out.join("energy-loss.svg")).unwrap();
-    let metadata = format!("sweep sha256 {hash}</metadata>");
-    assert!(svg.contains(&metadata));
-    let png = fs::read(out.join("loops@2x.png")).unwrap();
+    let svg = place.text("out/energy-loss.svg");
+    assert!(svg.contains(&format!("sweep sha256 {hash}</metadata>")));
+    let png = place.bytes("out/loops@2x.png");
     let text = format!("Source\0sweep sha256 {hash}");
     assert!(
         png.windows(text.len())
@@ -715,53 +629,37 @@ fn pictures_and_run_json_say_where_they_come_from() {
 
 #[test]
 fn a_plan_tells_cases_and_cost_and_computes_nothing() {
-    let folder = TempDir::new().unwrap();
-    let file = write(&folder, "cheap.toml", CHEAP);
-    let out = folder.path().join("out");
-    let telling = || {
-        contains("60 cases on 64 springs")
-            .and(contains("Time: about"))
-            .and(contains("Memory: about"))
-            .and(contains("Shards: 1"))
-    };
-    program()
-        .args(["plan", &file])
-        .assert()
-        .success()
-        .stdout(telling());
-    sweep(&file, &out, &["--dry-run"])
-        .success()
-        .stdout(telling());
-    assert!(!out.exists());
+    let place = of(CHEAP);
+    for run in ["plan sweep.toml", "sweep sweep.toml --dry-run --out out"] {
+        let told = [
+            "60 cases on 64 springs",
+            "Time: about",
+            "Memory: about",
+            "Shards: 1",
+        ];
+        place.done(run).says(&told);
+    }
+    assert!(!place.has("out"));
 }
 
 #[test]
 fn a_comparison_finds_a_shifted_peak_and_a_missing_case() {
-    let folder = TempDir::new().unwrap();
+    let place = Place::new();
     let baseline = whole_cheap();
-    let compare = |new: &Path, more: &[&str]| {
-        let mut command = program();
-        command.arg("compare").arg(&baseline).arg(new).args(more);
-        command.assert()
-    };
-    let drawn = folder.path().join("drawn");
-    compare(&baseline, &["--out", drawn.to_str().unwrap()])
-        .success()
-        .stdout(contains("60 cases in both").and(contains("are the same")));
+    let compare = |new: &str| place.run(&format!("compare '{}' {new}", baseline.display()));
+    let same = compare(&format!("'{}' --out drawn", baseline.display()));
+    same.ended(0).says(&["60 cases in both", "are the same"]);
     for name in ["comparison.svg", "comparison.png", "comparison.csv"] {
-        assert!(drawn.join(name).is_file(), "{name}");
+        assert!(place.has(&format!("drawn/{name}")), "{name}");
     }
     // Only the files that a comparison reads, changed in one place.
     let planted = |name: &str, change: &dyn Fn(&str, String) -> String| {
-        let new = folder.path().join(name);
-        fs::create_dir(&new).unwrap();
         for file in ["sweep.csv", "summary.json"] {
             let text = fs::read_to_string(baseline.join(file)).unwrap();
-            fs::write(new.join(file), change(file, text)).unwrap();
+            place.put(&format!("{name}/{file}"), change(file, text));
         }
-        new
     };
-    let shifted = planted("shifted", &|file, text| {
+    planted("shifted", &|file, text| {
         if file == "sweep.csv" {
             return text;
         }
@@ -770,80 +668,59 @@ fn a_comparison_finds_a_shifted_peak_and_a_missing_case() {
         *omega = (omega.as_f64().unwrap() * 1.003).into();
         summary.to_string()
     });
-    compare(&shifted, &[])
-        .code(4)
-        .stdout(contains("moved by +0.3 %").and(contains("differ")));
-    compare(&shifted, &["--relative", "1e-2"]).success();
-    let missing = planted("missing", &|file, text| {
+    let shifted = compare("shifted").ended(4);
+    shifted.says(&["moved by +0.3 %", "differ"]);
+    compare("shifted --relative 1e-2").ended(0);
+    planted("missing", &|file, text| {
         if file != "sweep.csv" {
             return text;
         }
         let lines = text.lines().enumerate().filter(|(line, _)| *line != 7);
         lines.map(|(_, line)| format!("{line}\n")).collect()
     });
-    compare(&missing, &[])
-        .code(4)
-        .stdout(contains("1 cases missing in the new result").and(contains("ω = 2.019e-3 rad/s")));
-    compare(&missing.join("sweep.csv"), &[]).code(4);
-    compare(Path::new("/no/such"), &[])
-        .code(2)
-        .stderr(contains("/no/such"));
-    compare(&baseline, &["--relative", "-1"]).code(2);
-    compare(&baseline, &["--tolerance", "nothing=1"])
-        .code(2)
-        .stderr(contains("no column nothing"));
+    let missing = compare("missing").ended(4);
+    missing.says(&["1 cases missing in the new result", "ω = 2.019e-3 rad/s"]);
+    compare("missing/sweep.csv").ended(4);
+    told(&compare("/no/such").ended(2).stderr, &["/no/such"]);
+    let itself = format!("'{}'", baseline.display());
+    compare(&format!("{itself} --relative -1")).ended(2);
+    let nothing = compare(&format!("{itself} --tolerance nothing=1"));
+    told(&nothing.ended(2).stderr, &["no column nothing"]);
 }
 
 #[test]
 fn a_sweep_that_was_moved_with_its_data_and_renamed_goes_on() {
-    let folder = TempDir::new().unwrap();
-    let at = |name: &str| folder.path().join(name);
-    let sweep = |file: &str, data: &str| {
+    let place = Place::new();
+    let put = |file: &str, data: &str| {
         let text = CHEAP
             .replace(
                 "shape = \"sphere\"\nradius = \"10 mm\"",
                 "shape = \"profile\"\nfile = \"DATA\"",
             )
-            .replace("points = 60", "points = 3")
-            .replace("DATA", data);
-        fs::write(at(file), text).unwrap();
-    };
-    let run = |file: &str, out: &str| {
-        let mut command = program();
-        command
-            .args(["sweep", "--quiet"])
-            .arg(at(file))
-            .arg("--out")
-            .arg(at(out));
-        command.assert()
+            .replace("points = 60", "points = 3");
+        place.put(file, text.replace("DATA", data));
     };
     let found = |out: &str| {
-        let text = fs::read_to_string(at(out).join("run.json")).unwrap();
-        let run: serde_json::Value = serde_json::from_str(&text).unwrap();
-        (run["cases_computed"].as_u64(), run["cases_found"].as_u64())
+        let run = place.json(&format!("{out}/run.json"));
+        ["cases_computed", "cases_found"].map(|key| run[key].as_u64().unwrap())
     };
-    fs::create_dir(at("here")).unwrap();
     let tip = "r_m,gap_m\n0,0\n1e-3,5e-5\n2e-3,2e-4\n4e-3,8e-4\n";
-    fs::write(at("here/tip.csv"), tip).unwrap();
-    sweep("here/sweep.toml", "tip.csv");
-    run("here/sweep.toml", "here/out").success();
-    assert_eq!(found("here/out"), (Some(3), Some(0)));
+    place.put("here/tip.csv", tip);
+    put("here/sweep.toml", "tip.csv");
+    place.done("sweep here/sweep.toml --quiet --out here/out");
+    assert_eq!(found("here/out"), [3, 0]);
 
-    fs::rename(at("here"), at("there")).unwrap();
-    fs::rename(at("there/tip.csv"), at("there/point.csv")).unwrap();
-    fs::remove_file(at("there/sweep.toml")).unwrap();
-    sweep("there/other.toml", "point.csv");
-    run("there/other.toml", "there/out").success();
-    assert_eq!(found("there/out"), (Some(0), Some(3)));
+    let rename = |from: &str, to: &str| fs::rename(place.path(from), place.path(to)).unwrap();
+    rename("here", "there");
+    rename("there/tip.csv", "there/point.csv");
+    fs::remove_file(place.path("there/sweep.toml")).unwrap();
+    put("there/other.toml", "point.csv");
+    let other = "sweep there/other.toml --quiet --out there/out";
+    place.done(other);
+    assert_eq!(found("there/out"), [0, 3]);
     // The folder knows where the data lie now.
-    program()
-        .arg("report")
-        .arg(at("there/out"))
-        .assert()
-        .success();
+    place.done("report there/out");
 
-    fs::write(at("there/point.csv"), tip.replace("8e-4", "9e-4")).unwrap();
-    run("there/other.toml", "there/out")
-        .code(2)
-        .stderr(contains("sha256"));
+    place.put("there/point.csv", tip.replace("8e-4", "9e-4"));
+    assert!(place.refused(other).contains("sha256"));
 }

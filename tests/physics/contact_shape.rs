@@ -4,7 +4,9 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use crate::common::{on_cells, pmma_material, run_case, springs, sweep_plan};
+use crate::common::{
+    on_cells, pmma_material, run_case, sphere_of_10_mm as sphere, springs, sweep_plan,
+};
 use contact_dma::contact::{Engine, Instant, Prescribed};
 use contact_dma::drive::{Control, HarmonicDrive, Segment, SegmentedDrive};
 use contact_dma::engine::EngineKind;
@@ -19,10 +21,6 @@ fn bump(center_x_m: f64) -> Asperity {
         radius_m: 0.01,
         height_m: 0.0,
     }
-}
-
-fn sphere() -> Arc<dyn Indenter> {
-    Arc::new(Sphere::new(0.01).unwrap())
 }
 
 /// Shapes whose lowest points lie 1 mm off the axis, and the number of spheres of 10 mm that each is.

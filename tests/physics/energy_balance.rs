@@ -3,15 +3,13 @@
 
 use std::sync::Arc;
 
-use crate::common::{observed_order, pmma_material, relative, run_case, sweep_plan};
+use crate::common::{
+    observed_order, pmma_material, relative, run_case, sphere_of_10_mm as sphere, sweep_plan,
+};
 use contact_dma::engine::EngineKind;
-use contact_dma::indenter::{Cone, FlatPunch, Indenter, Sphere};
+use contact_dma::indenter::{Cone, FlatPunch, Indenter};
 use contact_dma::sweep::plan::SweepPlan;
 use contact_dma::sweep::record::{CaseResult, SurfaceLoss};
-
-fn sphere() -> Arc<dyn Indenter> {
-    Arc::new(Sphere::new(0.01).unwrap())
-}
 
 fn pmma(indenter: Arc<dyn Indenter>, amplitude_n: f64) -> SweepPlan {
     sweep_plan(pmma_material(), indenter, 10.0, amplitude_n)

@@ -4,7 +4,7 @@
 //! `MODELS=100 SEED=1 cargo test --release --test physics fractional -- --nocapture` tries and prints as many as asked for.
 
 use crate::common::solids::Random;
-use crate::common::{run_case, sweep_plan};
+use crate::common::{from_environment, run_case, sweep_plan};
 use contact_dma::indenter::FlatPunch;
 use contact_dma::material::fractional::Fractional;
 use contact_dma::material::{Compressibility, ModulusKind};
@@ -59,11 +59,6 @@ impl Given {
         let (low, high) = self.band;
         [0.0, 0.11, 0.5, 0.93, 1.0].map(|share| low * (high / low).powf(share))
     }
-}
-
-fn from_environment(name: &str, default: u64) -> u64 {
-    let asked = std::env::var(name).ok();
-    asked.map_or(default, |text| text.parse().expect("a whole number"))
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use crate::common::{first_touch, half_space, observed_order, pmma, relative, solve_from};
+use crate::common::{first_touch, half_space, observed_order, pmma, relative, solve_from, uniform};
 use contact_dma::contact::half_space::convolution::Convolution;
 use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
@@ -169,14 +169,6 @@ fn a_rough_surface_takes_few_iterations_and_has_the_answer_of_the_safe_way() {
     assert!(largest < 1e-5, "{largest:e}");
 }
 
-/// Numbers in [0, 1) that look random and are the same in every run (Knuth's MMIX generator).
-fn random(state: &mut u64) -> f64 {
-    *state = state
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1_442_695_040_888_963_407);
-    (*state >> 11) as f64 / (1_u64 << 53) as f64
-}
-
 /// Two asperities of different height, off the middle.
 fn pair() -> Asperities {
     let high = Asperity {
@@ -208,15 +200,15 @@ fn random_history(engine: &mut HalfSpace, seed: u64) -> Vec<(f64, f64)> {
     let mut state = seed;
     let mut found = Vec::new();
     for _ in 0..25 {
-        let size = random(&mut state);
-        let prescribed = match (6.0 * random(&mut state)) as u32 {
+        let size = uniform(&mut state);
+        let prescribed = match (6.0 * uniform(&mut state)) as u32 {
             0 => Prescribed::LoadN(0.0),
             1 | 2 => Prescribed::LoadN(2.0 * size),
             3 => Prescribed::LoadN(2.0 * 10_f64.powf(-4.0 * size)),
             _ => Prescribed::ApproachM(1.5e-5 * size),
         };
         found.push(march.jump(prescribed).unwrap());
-        let weights = march.weights(10_f64.powf(3.0 * random(&mut state) - 2.0));
+        let weights = march.weights(10_f64.powf(3.0 * uniform(&mut state) - 2.0));
         for _ in 0..4 {
             found.push(march.step(&weights, prescribed).unwrap());
         }
@@ -291,8 +283,8 @@ fn guesses(exact: &[f64], grid: &Grid) -> Vec<(&'static str, Vec<f64>)> {
         x == 0 || y == 0 || x == nx - 1 || y == grid.cells_y() - 1
     };
     let mut state = 3;
-    let noise: Vec<f64> = (0..cells).map(|_| random(&mut state)).collect();
-    let sparse: Vec<f64> = (0..cells).map(|_| random(&mut state)).collect();
+    let noise: Vec<f64> = (0..cells).map(|_| uniform(&mut state)).collect();
+    let sparse: Vec<f64> = (0..cells).map(|_| uniform(&mut state)).collect();
     let one = |at: usize, share: f64| move |cell: usize| if cell == at { share } else { 0.0 };
     vec![
         ("the answer", exact.to_vec()),

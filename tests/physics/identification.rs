@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
+use crate::common::from_environment;
 use crate::common::solids::Random;
 use contact_dma::drive::HarmonicDrive;
 use contact_dma::engine::{EngineKind, SolverPlan};
@@ -18,11 +19,6 @@ use contact_dma::sweep::Sweep;
 use contact_dma::sweep::plan::{CyclePlan, SweepPlan};
 
 const POISSON: f64 = 0.35;
-
-pub fn from_environment(name: &str, default: u64) -> u64 {
-    let asked = std::env::var(name).ok();
-    asked.map_or(default, |text| text.parse().expect("a whole number"))
-}
 
 /// Twelve frequencies over five decades about 1 rad/s.
 fn frequencies() -> Vec<f64> {

@@ -4,8 +4,8 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use crate::common::from_environment;
 use crate::common::solids::Random;
-use crate::identification::from_environment;
 use contact_dma::engine::EngineKind;
 use contact_dma::identify::data::{Measurements, Reading};
 use contact_dma::identify::{Driven, Identified, IdentifyError, IdentifyPlan, identify};

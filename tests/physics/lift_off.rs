@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use crate::common::solids::{Random, solid_of_ratio};
-use crate::common::{on_cells, run_case, sweep_plan};
+use crate::common::{from_environment, on_cells, run_case, sweep_plan};
 use contact_dma::drive::{Control, HarmonicDrive};
 use contact_dma::indenter::{Cone, Indenter, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch, classical};
@@ -16,11 +16,6 @@ use contact_dma::sweep::plan::{Method, SweepPlan};
 use contact_dma::sweep::record::error_bars::Quantity;
 use contact_dma::sweep::record::{CaseRecord, CaseResult};
 use rayon::prelude::*;
-
-fn from_environment(name: &str, default: u64) -> u64 {
-    let asked = std::env::var(name).ok();
-    asked.map_or(default, |text| text.parse().expect("a whole number"))
-}
 
 /// One branch whose relaxation makes a solid this many times softer.
 fn zener(ratio: f64, time_s: f64) -> Material {

@@ -1,17 +1,11 @@
 //! What is no result is not returned as one, and what is doubtful says so: numbers that are not finite, a loss below zero, the wrong
 //! one of several peaks.
 
-use std::sync::Arc;
-
 use contact_dma::indenter::Sphere;
 use contact_dma::prelude::*;
 use contact_dma::sweep::record::{CaseRecord, Status};
 
-use crate::common::{on_cells, pmma_material, run_case, sweep_plan};
-
-fn sphere() -> Arc<dyn Indenter> {
-    Arc::new(Sphere::new(0.01).unwrap())
-}
+use crate::common::{on_cells, pmma_material, run_case, sphere_of_10_mm as sphere, sweep_plan};
 
 #[test]
 fn numbers_beyond_those_of_the_machine_are_a_failed_case_whose_record_can_be_read_again() {

@@ -7,17 +7,9 @@ use contact_dma::input::document::Document;
 use contact_dma::input::sweep_file;
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::resolved;
-use contact_dma::sweep::record::CaseRecord;
 use contact_dma::sweep::search::peak::Peak;
-use contact_dma::sweep::search::run::{self, Mode, Outcome, Progress};
+use contact_dma::sweep::search::run::{self, Mode, Outcome};
 use contact_dma::sweep::store::Store;
-
-struct Silent;
-
-impl Progress for Silent {
-    fn case_finished(&self, _: &CaseRecord) {}
-    fn locating_peaks(&self, _: usize) {}
-}
 
 fn main_job() -> Outcome {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -31,7 +23,7 @@ fn main_job() -> Outcome {
         &store,
         Mode::on_threads(2),
         &AtomicBool::new(false),
-        &Silent,
+        &(),
     )
     .unwrap()
 }

@@ -6,21 +6,17 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use crate::common::{pmma_material, relative, run_case, sweep_plan};
+use crate::common::{pmma_material, relative, run_case, sphere_of_10_mm as sphere, sweep_plan};
 use contact_dma::contact::surface::{Along, PressureLine};
 use contact_dma::drive::{Control, HarmonicDrive};
 use contact_dma::engine::EngineKind;
-use contact_dma::indenter::{Cone, Ellipsoid, FlatPunch, Indenter, Sphere};
+use contact_dma::indenter::{Cone, Ellipsoid, FlatPunch, Indenter};
 use contact_dma::report::table;
 use contact_dma::report::work_line::{WorkAlong, WorkLine};
 use contact_dma::sweep::plan::{Method, SweepPlan};
 use contact_dma::sweep::record::{CaseRecord, CaseResult, PressureProfile, Quarter};
 
 const OMEGA: f64 = 0.0084;
-
-fn sphere() -> Arc<dyn Indenter> {
-    Arc::new(Sphere::new(0.01).unwrap())
-}
 
 /// PMMA under 10 N with an amplitude of 5 N.
 fn plan(indenter: Arc<dyn Indenter>) -> SweepPlan {

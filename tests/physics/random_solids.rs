@@ -7,7 +7,7 @@
 use std::sync::Arc;
 
 use crate::common::solids::{Random, frequencies, shape, solid};
-use crate::common::{on_cells, pmma_material, run_case, sweep_plan};
+use crate::common::{from_environment, on_cells, pmma_material, run_case, sweep_plan};
 use contact_dma::indenter::{Cone, FlatPunch, Indenter, Sphere};
 use contact_dma::material::{
     Creep, CreepBranch, Material, ModulusKind, Relaxation, RelaxationBranch,
@@ -16,11 +16,6 @@ use contact_dma::sweep::plan::SweepPlan;
 use contact_dma::sweep::record::CaseResult;
 use contact_dma::sweep::record::error_bars::Quantity;
 use rayon::prelude::*;
-
-fn from_environment(name: &str, default: u64) -> u64 {
-    let asked = std::env::var(name).ok();
-    asked.map_or(default, |text| text.parse().expect("a whole number"))
-}
 
 /// A plan per solid, and the frequencies: 1 % to 100 % of the mean.
 fn plans(

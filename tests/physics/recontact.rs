@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+use crate::common::uniform;
 use contact_dma::contact::axisymmetric::{Axisymmetric, Edge};
 use contact_dma::contact::half_space::convolution::Convolution;
 use contact_dma::contact::half_space::grid::Grid;
@@ -67,14 +68,6 @@ fn cells(per_side: usize, half_width_m: f64) -> HalfSpace {
     )
 }
 
-/// Numbers in [0, 1) that look random and are the same in every run (Knuth's MMIX generator).
-fn random(state: &mut u64) -> f64 {
-    *state = state
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1_442_695_040_888_963_407);
-    (*state >> 11) as f64 / (1_u64 << 53) as f64
-}
-
 /// Hertz: a^3 = (3/4) W R C.
 fn hertz_radius_m(load_n: f64, compliance_per_pa: f64) -> f64 {
     (0.75 * load_n * RADIUS_M * compliance_per_pa).cbrt()
@@ -119,8 +112,8 @@ fn any_history_of_loads_and_approaches_is_solved_on_the_half_space() {
         let mut march = March::new(&mut engine, creep.clone(), TimeRule::Linear);
         let mut state = seed;
         for instant in 0..40 {
-            let size = random(&mut state);
-            let prescribed = match (10.0 * random(&mut state)) as u32 {
+            let size = uniform(&mut state);
+            let prescribed = match (10.0 * uniform(&mut state)) as u32 {
                 0 | 1 => Prescribed::LoadN(0.0),
                 // Loads down to rounding of the largest.
                 2 | 3 => Prescribed::LoadN(largest_n * 10_f64.powf(-16.0 * size)),
@@ -129,7 +122,7 @@ fn any_history_of_loads_and_approaches_is_solved_on_the_half_space() {
                 7 => Prescribed::ApproachM(approach_m * 10_f64.powf(-16.0 * size)),
                 _ => Prescribed::ApproachM(approach_m * size),
             };
-            let duration_s = 10_f64.powf(4.0 * random(&mut state) - 3.0);
+            let duration_s = 10_f64.powf(4.0 * uniform(&mut state) - 3.0);
             let marched = march.jump(prescribed).and_then(|solution| {
                 march.hold(duration_s, prescribed)?;
                 Ok(solution)

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use crate::common::pmma;
 use contact_dma::contact::axisymmetric::{Axisymmetric as Springs, Edge};
 use contact_dma::contact::half_space::convolution::Convolution;
 use contact_dma::contact::half_space::grid::Grid;
@@ -19,7 +20,6 @@ use contact_dma::indenter::{
 };
 use contact_dma::input::document::Document;
 use contact_dma::input::sweep_file;
-use contact_dma::material::{Creep, library};
 use contact_dma::reference::elastic::{ConeContact, Hertz};
 use contact_dma::reference::elliptic::EllipticHertz;
 use contact_dma::reference::power_law::PowerLawContact;
@@ -128,11 +128,6 @@ fn off(found: f64, expected: f64) -> f64 {
 fn largest_difference(one: &[f64], other: &[f64]) -> f64 {
     let pairs = one.iter().zip(other);
     pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-}
-
-fn pmma() -> Creep {
-    let material = library::find("pmma").unwrap().material().unwrap();
-    material.contact_compliance().unwrap()
 }
 
 // Ellipses.

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use crate::common::from_environment;
 use crate::common::solids::Random;
 use contact_dma::drive::{Control, Fineness, Segment, SegmentedDrive};
 use contact_dma::engine::EngineKind;
@@ -202,17 +203,12 @@ fn table(all: &[[Vec<f64>; 4]]) -> [(f64, f64); 4] {
     })
 }
 
-/// A number from the environment, for more histories or other ones.
-fn asked(name: &str, default: u64) -> u64 {
-    std::env::var(name).map_or(default, |text| text.parse().unwrap())
-}
-
 /// `CONTACT_DMA_SEED=7 CONTACT_DMA_HISTORIES=500 cargo test --test physics simulate_errors -- --nocapture` for others and more.
 #[test]
 fn the_true_error_lies_inside_the_bar() {
-    let mut random = Random(asked("CONTACT_DMA_SEED", 13));
-    let springs = asked("CONTACT_DMA_SPRINGS", 100) as usize;
-    let count = asked("CONTACT_DMA_HISTORIES", 50);
+    let mut random = Random(from_environment("CONTACT_DMA_SEED", 13));
+    let springs = from_environment("CONTACT_DMA_SPRINGS", 100) as usize;
+    let count = from_environment("CONTACT_DMA_HISTORIES", 50);
     let plans: Vec<_> = (0..count).map(|_| scenario(&mut random, springs)).collect();
     let all: Vec<_> = plans
         .par_iter()
@@ -226,13 +222,13 @@ fn the_true_error_lies_inside_the_bar() {
 /// On cells, against springs: few, because they take long.
 #[test]
 fn the_true_error_lies_inside_the_bar_on_cells() {
-    let mut random = Random(asked("CONTACT_DMA_SEED", 13));
-    let count = asked("CONTACT_DMA_HISTORIES_ON_CELLS", 4);
+    let mut random = Random(from_environment("CONTACT_DMA_SEED", 13));
+    let count = from_environment("CONTACT_DMA_HISTORIES_ON_CELLS", 4);
     let mut plans = Vec::new();
     while plans.len() < count as usize {
         let mut plan = scenario(&mut random, 400);
         plan.solver.engine = EngineKind::HalfSpace;
-        plan.solver.cells = asked("CONTACT_DMA_CELLS", 40) as usize;
+        plan.solver.cells = from_environment("CONTACT_DMA_CELLS", 40) as usize;
         // The largest pressure of cells is a mean over a cell: no bar holds where it grows beyond all bounds.
         if plan.contact.indenter.pressure_is_bounded() {
             plans.push(plan);

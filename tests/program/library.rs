@@ -7,6 +7,7 @@ mod one_history;
 #[path = "../../examples/sweep_with_peaks.rs"]
 mod sweep_with_peaks;
 
+use crate::common::pmma_material as pmma;
 use crate::program::pmma_sweep;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
@@ -18,7 +19,7 @@ use contact_dma::prelude::*;
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::resolved::resolved_text;
 use contact_dma::sweep::record::Status;
-use contact_dma::sweep::search::run::{self, Mode, Progress};
+use contact_dma::sweep::search::run::{self, Mode};
 use contact_dma::sweep::store::Store;
 use contact_dma::sweep::store::records::Records;
 
@@ -32,17 +33,6 @@ steps = 32
 [solver]
 springs = 32
 "#;
-
-struct Silent;
-
-impl Progress for Silent {
-    fn case_finished(&self, _: &CaseRecord) {}
-    fn locating_peaks(&self, _: usize) {}
-}
-
-fn pmma() -> Material {
-    library::find("pmma").unwrap().material().unwrap()
-}
 
 fn sweep() -> Sweep {
     let drive = HarmonicDrive::load(10.0, 5.0).unwrap();
@@ -58,7 +48,7 @@ fn a_sweep_from_values_in_memory_is_that_of_a_file_in_a_folder_to_the_last_bit()
     let store = Store::open(folder.path(), &resolved_text(&plan), false).unwrap();
     let setup = Setup::new(plan).unwrap();
     let never = AtomicBool::new(false);
-    let of_file = run::run(&setup, &store, Mode::on_threads(2), &never, &Silent).unwrap();
+    let of_file = run::run(&setup, &store, Mode::on_threads(2), &never, &()).unwrap();
     assert!(of_file.records.len() > 8, "nothing was refined");
     assert!(!of_file.peaks.is_empty());
 
@@ -76,12 +66,12 @@ fn an_archive_in_memory_keeps_what_was_solved() {
     let plan = sweep().frequencies_hz([1e-3, 1e-2]).unwrap().into_plan();
     let (setup, archive) = (Setup::new(plan).unwrap(), Records::default());
     let stopped = AtomicBool::new(true);
-    let nothing = run::run(&setup, &archive, Mode::on_threads(1), &stopped, &Silent).unwrap();
+    let nothing = run::run(&setup, &archive, Mode::on_threads(1), &stopped, &()).unwrap();
     assert!(nothing.interrupted && nothing.records.is_empty());
     let never = AtomicBool::new(false);
-    let outcome = run::run(&setup, &archive, Mode::on_threads(2), &never, &Silent).unwrap();
+    let outcome = run::run(&setup, &archive, Mode::on_threads(2), &never, &()).unwrap();
     assert_eq!(outcome.records.len(), 2);
-    let again = run::run(&setup, &archive, Mode::Read, &never, &Silent).unwrap();
+    let again = run::run(&setup, &archive, Mode::Read, &never, &()).unwrap();
     assert_eq!(again, outcome);
 }
 

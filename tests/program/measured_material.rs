@@ -10,6 +10,7 @@ use std::fmt::Write as _;
 
 use contact_dma::prelude::*;
 
+use crate::common::from_environment;
 use crate::common::solids::Random;
 use crate::program::Place;
 
@@ -144,8 +145,7 @@ fn data_of(found: &serde_json::Value) -> Vec<&str> {
 
 /// How many sets of records are made where nothing else is asked for.
 fn sets(few: u64) -> u64 {
-    let asked = std::env::var("RECORDS").ok();
-    asked.map_or(few, |text| text.parse().expect("a whole number"))
+    from_environment("RECORDS", few)
 }
 
 #[test]

@@ -18,18 +18,11 @@ use contact_dma::quantity::Dimension;
 use contact_dma::report;
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::{Axes, AxisValue, AxisValues, Block, Condition, SweepPlan, Varied};
-use contact_dma::sweep::record::{CaseRecord, Status};
-use contact_dma::sweep::search::run::{self, Mode, Outcome, Progress};
+use contact_dma::sweep::record::Status;
+use contact_dma::sweep::search::run::{self, Mode, Outcome};
 use contact_dma::sweep::store::Store;
 use contact_dma::sweep::store::files;
 use tempfile::TempDir;
-
-struct Silent;
-
-impl Progress for Silent {
-    fn case_finished(&self, _: &CaseRecord) {}
-    fn locating_peaks(&self, _: usize) {}
-}
 
 /// A sweep with what it left in its folder.
 struct Swept {
@@ -47,7 +40,7 @@ fn swept(plan: SweepPlan) -> Swept {
         &store,
         Mode::on_threads(2),
         &AtomicBool::new(false),
-        &Silent,
+        &(),
     )
     .unwrap();
     let left_out = report::write_sweep(&store, setup.plan(), &outcome).unwrap();

@@ -2,6 +2,7 @@
 
 #![cfg(feature = "cli")]
 
+use crate::common::pmma_material as pmma;
 use crate::program::{Place, Table, program, write};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -18,7 +19,7 @@ use contact_dma::input::sweep_file;
 use contact_dma::material::fit::fit as fit_of;
 use contact_dma::material::tabulated::Tabulated;
 use contact_dma::material::{
-    Material, MaterialFunction, ModulusKind, Relaxation, RelaxationBranch, library,
+    Material, MaterialFunction, ModulusKind, Relaxation, RelaxationBranch,
 };
 use contact_dma::reference::transient::step_load_contact_radius_m;
 use contact_dma::sweep::Sweep;
@@ -27,10 +28,6 @@ use contact_dma::sweep::plan::SweepPlan;
 use contact_dma::sweep::plan::resolved::{self, resolved_text};
 use contact_dma::sweep::record::material_error;
 use tempfile::TempDir;
-
-fn pmma() -> Material {
-    library::find("pmma").unwrap().material().unwrap()
-}
 
 /// Ten samples per decade, from 0.1 s to 1000 s.
 fn times_s() -> Vec<f64> {
