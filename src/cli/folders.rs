@@ -18,7 +18,7 @@ use crate::sweep::plan::figures::FigurePlan;
 use crate::sweep::store::Store;
 use crate::sweep::store::manifest::Target;
 
-/// The folder for the results of a file: the one asked for, or reports/<name of the file>; of standard input, reports/stdin.
+/// The folder for the results of a file: the one asked for, or `reports/<name of the file>`; of standard input, `reports/stdin`.
 pub(super) fn folder_of(flags: &RunFlags) -> PathBuf {
     let stem = match flags.file == Path::new(STANDARD_INPUT) {
         true => OsStr::new("stdin"),
