@@ -25,7 +25,7 @@ radius_y = "20 mm"
 segments = [
     { kind = "step", to = "10 N", duration = "20 s" },
     { kind = "ramp", to = "0 N", duration = "5 s" },
-    { kind = "sine", mean = "5 N", amplitude = "4 N", angular_frequency = "0.5 rad/s", cycles = 20 },
+    { kind = "sine", mean = "5 N", amplitude = "4 N", angular_frequency = "0.5 rad/s", cycles = 40 },
 ]
 [time]
 step = "0.2 s"
