@@ -15,6 +15,9 @@ use crate::sweep::plan::resolved::hash;
 /// The list, and where the results come from.
 pub const RUN: &str = "run.json";
 
+/// What was found; it names the program, as the list does.
+const SUMMARY: &str = "summary.json";
+
 /// As files name the program.
 pub(super) const PROGRAM: &str = "contact-dma";
 
@@ -121,9 +124,11 @@ pub(super) fn look(folder: &Path, resolved: Option<&str>) -> Result<Listed, Stor
             continue;
         };
         is_of_program = true;
-        is_listed |= run.files.is_some();
+        // The summary of a fit names files too: those that were read.
+        let files = run.files.filter(|_| name != SUMMARY);
+        is_listed |= files.is_some();
         listed.kind = listed.kind.or(run.kind);
-        let files = run.files.into_iter().flatten();
+        let files = files.into_iter().flatten();
         listed.files.extend(files.filter(|name| is_inside(name)));
     }
     if is_listed {
@@ -154,7 +159,7 @@ pub fn kind_of(folder: &Path) -> Result<Option<Kind>, StoreError> {
 
 /// Files that name the program: `run.json`, those of shards, and the summary.
 fn may_be_signed(name: &str) -> bool {
-    name == RUN || name == "summary.json" || files::is_run_of_shard(name)
+    name == RUN || name == SUMMARY || files::is_run_of_shard(name)
 }
 
 fn run_of(path: &Path) -> Option<Run> {
