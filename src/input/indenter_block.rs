@@ -288,7 +288,7 @@ impl Block<'_> {
     }
 
     fn rough(&mut self, shape: &Located<Shape>) -> Made {
-        let hurst = self.0.place_of("hurst_exponent");
+        let hurst = self.0.places_in("hurst_exponent").pop();
         let roughness: Roughness = block::read_from(&mut self.0, None)?;
         let map = match (roughness.map(), hurst) {
             (Err(refused @ IndenterError::Hurst { .. }), Some(place)) => {
