@@ -543,22 +543,13 @@ fn report_names_the_command_that_makes_the_figures_of_a_folder_that_it_cannot_dr
 
 #[test]
 fn the_data_of_a_fit_that_were_copied_beside_its_results_stay() {
-    let place = Place::new();
+    let place = inputs();
     let data = "frequency_hz,storage_modulus_pa,loss_modulus_pa\n0.1,1e6,1e5\n0.3,1.2e6,2e5\n1,1.5e6,3e5\n3,1.8e6,2e5\n10,2e6,1e5\n";
     place.put("dma.csv", data);
-    let fit = [
-        "material",
-        "fit",
-        "dma.csv",
-        "--quantity",
-        "dynamic",
-        "--modulus",
-        "shear",
-    ];
-    place.ends(&into(&fit, "out", &[]), 0);
+    place.done("material fit dma.csv --quantity dynamic --modulus shear --out out");
     // The summary names the data by their file, which the program has not written.
     place.put("out/dma.csv", data);
-    place.ends(&["sweep", "small.toml", "--out", "out", "--force"], 0);
+    place.ends("sweep small.toml --out out --force", 0);
     assert!(place.path("out/dma.csv").exists() && !place.path("out/master.csv").exists());
 }
 
