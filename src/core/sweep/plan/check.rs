@@ -45,7 +45,7 @@ impl SweepPlan {
     pub const MAX_POINTS: usize = 100_000;
     pub const MAX_CASES: usize = 1_000_000;
 
-    /// Checks every value that is not checked where it is made: frequencies and second axis, [`CyclePlan`] and [`SolverPlan`].
+    /// Checks every value that is not checked where it is made: frequencies and second axis, the blocks `[cycle]` and `[solver]`.
     ///
     /// # Errors
     /// [`PlanError`] with the first value that is refused.
