@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::data_file;
-use super::diagnostic::Diagnostics;
+use super::diagnostic::{Diagnostics, Location};
 use super::document::kind::{
     Array, Choice, Describe, Number, Table, Tables, Text, number, pair, quantity,
 };
@@ -247,9 +247,9 @@ impl Block<'_> {
     }
 
     /// A shape, or its refusal reported at this place.
-    fn made<S: Indenter + 'static, P>(
+    fn made<S: Indenter + 'static>(
         &self,
-        place: &Located<P>,
+        place: &impl AsRef<Location>,
         shape: Result<S, IndenterError>,
     ) -> Made {
         Some(Arc::new(self.0.problems().accept(place, shape)?))
@@ -290,14 +290,10 @@ impl Block<'_> {
     fn rough(&mut self, shape: &Located<Shape>) -> Made {
         let hurst = self.0.places_in("hurst_exponent").pop();
         let roughness: Roughness = block::read_from(&mut self.0, None)?;
-        let map = match (roughness.map(), hurst) {
-            (Err(refused @ IndenterError::Hurst { .. }), Some(place)) => {
-                self.0.problems().at(&place, refused.to_string());
-                return None;
-            }
-            (other, _) => other,
-        };
-        self.made(shape, map)
+        match (roughness.map(), hurst) {
+            (refused @ Err(IndenterError::Hurst { .. }), Some(hurst)) => self.made(&hurst, refused),
+            (other, _) => self.made(shape, other),
+        }
     }
 
     /// What is made of the bytes under `file`, once they are known to be those of `sha256`.

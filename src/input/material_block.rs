@@ -300,24 +300,8 @@ fn from_block(
     };
     let made = match form {
         Form::Library | Form::Elastic | Form::Isotherms | Form::Dynamic => return None,
-        Form::Relaxation => {
-            return of_relaxation(block, nu).map(|made| made.map(BodyMaterial::from));
-        }
-        Form::Creep => {
-            let own = table_of(block, &CREEP, |table| {
-                let kind = table.value(&COMPLIANCE);
-                creep(table).zip(kind)
-            });
-            let others = alternatives(block, &CREEP_ALTERNATIVE, creep);
-            let ((own, kind), others, nu) = (own?, others?, nu?);
-            let material =
-                |series: Result<Creep, _>| Material::from_creep(series?, kind, nu.clone());
-            let others = others.into_iter().map(material).collect::<Result<_, _>>();
-            material(own).and_then(|mut own| {
-                own.origin.alternatives = others?;
-                Ok(own)
-            })
-        }
+        Form::Relaxation => of_relaxation(block, nu)?,
+        Form::Creep => of_creep(block, nu)?,
         Form::Measured => {
             let table = table_of(block, &MEASURED_TABLE, |table| {
                 material_table::read(table, direct_sum)
@@ -384,6 +368,26 @@ fn of_relaxation(
     Some(material(own).and_then(|mut own| {
         own.origin.alternatives = others?;
         own.origin.replicas = replicas?;
+        Ok(own)
+    }))
+}
+
+/// A creep series, with the others that fit the same data.
+fn of_creep(
+    block: &mut TableReader<'_>,
+    nu: Option<Compressibility>,
+) -> Option<Result<Material, MaterialError>> {
+    let own = table_of(block, &CREEP, |table| {
+        let kind = table.value(&COMPLIANCE);
+        creep(table).zip(kind)
+    });
+    let others = alternatives(block, &CREEP_ALTERNATIVE, creep);
+    let ((own, kind), others, nu) = (own?, others?, nu?);
+    let material =
+        |series: Result<Creep, MaterialError>| Material::from_creep(series?, kind, nu.clone());
+    let others = others.into_iter().map(material).collect::<Result<_, _>>();
+    Some(material(own).and_then(|mut own| {
+        own.origin.alternatives = others?;
         Ok(own)
     }))
 }

@@ -56,10 +56,7 @@ impl Control {
 
     /// The SI unit of the drive's values.
     pub fn unit(self) -> &'static str {
-        match self {
-            Self::Load => "N",
-            Self::Approach => "m",
-        }
+        self.dimension().si_unit()
     }
 }
 

@@ -1,7 +1,7 @@
 //! Blocks of input files and the words of their keys, each declared once: the struct of a plan, its defaults, its ranges, what is said of
 //! its keys, how it is read and how a resolved file has it.
 
-use super::key::{Key, Kind, Number, Presence, expected_integer};
+use super::key::{Key, Kind, Number, Presence, expected_integer, expected_list};
 use super::setting::{Setting, Table, Value};
 
 /// A block of an input file. [`block!`](crate::block) makes one of a struct.
@@ -74,7 +74,8 @@ pub struct Conflict {
     /// The key at which it is told.
     pub key: &'static str,
     pub what: String,
-    pub because: &'static str,
+    /// What is said at its place.
+    pub because: Option<&'static str>,
     /// What to write instead.
     pub help: &'static str,
 }
@@ -96,17 +97,13 @@ pub enum Refused {
 impl Kind {
     /// What is expected, with its article.
     pub fn expected(&self) -> String {
-        let each = |item: String, most: usize| match most {
-            2 => format!("an array of two, each {item}"),
-            _ => format!("an array, each item {item}"),
-        };
         match self {
             Self::Flag => "`true` or `false`".to_owned(),
             Self::Integer(range) => expected_integer(range),
             Self::Number(number) => number.expected(),
             Self::Word(words) => alternatives(words),
-            Self::Numbers(number, entries) => each(number.expected(), *entries.number.end()),
-            Self::Words(words, entries) => each(alternatives(words), *entries.number.end()),
+            Self::Numbers(number, entries) => expected_list(&number.expected(), &entries.number),
+            Self::Words(words, entries) => expected_list(&alternatives(words), &entries.number),
         }
     }
 
@@ -444,7 +441,7 @@ mod tests {
             is_fine.then(|| Conflict {
                 key: "roughness",
                 what: "a polished part is not rough".to_owned(),
-                because: "",
+                because: None,
                 help: "leave it out",
             })
         }

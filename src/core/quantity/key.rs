@@ -162,6 +162,14 @@ pub fn expected_integer(range: &RangeInclusive<usize>) -> String {
     }
 }
 
+/// A list of so many items, with what is expected of each: `an array, each item a time`.
+pub fn expected_list(item: &str, number: &RangeInclusive<usize>) -> String {
+    match *number.end() {
+        2 => format!("an array of two, each {item}"),
+        _ => format!("an array, each item {item}"),
+    }
+}
+
 /// From where to where a number may be, in SI units.
 #[derive(Clone, Copy)]
 pub struct Limits {

@@ -40,8 +40,8 @@ pub(crate) fn read_from<B: Block>(table: &mut TableReader<'_>, given: Option<&B>
     let place = place.unwrap_or_else(|| table.as_ref().clone());
     let report = table.problems().at(&place, conflict.what);
     let report = match conflict.because {
-        "" => report,
-        because => report.because(because),
+        None => report,
+        Some(because) => report.because(because),
     };
     report.help(conflict.help);
     None
@@ -103,7 +103,7 @@ fn described(kind: &KeyKind) -> Box<dyn Describe> {
 
 impl Describe for KeyKind {
     fn expected(&self) -> String {
-        described(self).expected()
+        self.expected()
     }
 
     fn example(&self) -> String {

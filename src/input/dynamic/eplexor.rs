@@ -92,7 +92,7 @@ fn reference(sheet: &str) -> Option<f64> {
 mod tests {
     use crate::input::data_file::workbook::MOST_BYTES_OF_CELL;
     use crate::input::diagnostic::Styling;
-    use crate::input::dynamic::tests::{TAU, assert_points, read_bytes};
+    use crate::input::dynamic::tests::{TAU, assert_noted, assert_points, read_bytes};
     use crate::input::dynamic::workbook::{Sheet, xls, xlsx};
     use crate::input::dynamic::{DynamicFormat, MAX_BYTES, from_bytes};
     use crate::material::ModulusKind;
@@ -143,13 +143,7 @@ mod tests {
                 [293.35, 10.0 * TAU, 1.2e9, 1.9e8],
             ];
             assert_points(&file, &expected);
-            assert!(
-                file.notes
-                    .iter()
-                    .any(|note| note.contains("1 row passed over")),
-                "{:?}",
-                file.notes
-            );
+            assert_noted(&file, "1 row passed over");
         }
     }
 

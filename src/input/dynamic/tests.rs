@@ -51,6 +51,12 @@ pub(super) fn assert_points(file: &DynamicFile, expected: &[[f64; 4]]) {
     }
 }
 
+/// Whether a note of the file says this.
+pub(super) fn assert_noted(file: &DynamicFile, words: &str) {
+    let mut notes = file.notes.iter();
+    assert!(notes.any(|note| note.contains(words)), "{:?}", file.notes);
+}
+
 pub(super) const TAU: f64 = std::f64::consts::TAU;
 
 #[test]
@@ -106,13 +112,7 @@ fn angular_frequencies_shear_errors_and_sets_are_read() {
     )
     .unwrap();
     assert_eq!(file.data.isotherms()[0].temperature_k, None);
-    assert!(
-        file.notes
-            .iter()
-            .any(|note| note.contains("taken in rad/s")),
-        "{:?}",
-        file.notes
-    );
+    assert_noted(&file, "taken in rad/s");
 }
 
 #[test]

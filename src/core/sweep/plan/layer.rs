@@ -86,7 +86,7 @@ impl LayerPlan {
         Some(Conflict {
             key,
             what: what.to_owned(),
-            because: "",
+            because: None,
             help,
         })
     }

@@ -194,7 +194,7 @@ impl CyclePlan {
         (self.at_cycle.is_some() && self.method == Method::Direct).then(|| Conflict {
             key: "at_cycle",
             what: "a cycle by its number needs `cycle.method = \"march\"`".to_owned(),
-            because: "a direct search knows no cycles before the stabilised one",
+            because: Some("a direct search knows no cycles before the stabilised one"),
             help: "add `method = \"march\"`, and in `[drive]` perhaps a `hold` before the first cycle",
         })
     }

@@ -10,6 +10,7 @@ use crate::input::diagnostic::{Diagnostics, Problems};
 use crate::input::document::Located;
 use crate::input::document::tree::{Node, Value};
 use crate::quantity::Dimension;
+use crate::quantity::key::expected_list;
 
 /// A list of values of one kind, each with its own place; a single value is a list of one.
 #[derive(Clone)]
@@ -80,10 +81,7 @@ impl<K: Kind> Array<K> {
 
 impl<K: Describe> Describe for Array<K> {
     fn expected(&self) -> String {
-        match *self.entries.end() {
-            2 => format!("an array of two, each {}", self.item.expected()),
-            _ => format!("an array, each item {}", self.item.expected()),
-        }
+        expected_list(&self.item.expected(), &self.entries)
     }
 
     fn example(&self) -> String {

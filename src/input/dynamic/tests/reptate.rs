@@ -1,7 +1,7 @@
 //! Files of RepTate.
 
 use crate::input::dynamic::DynamicFormat;
-use crate::input::dynamic::tests::{assert_points, read_bytes, read_text};
+use crate::input::dynamic::tests::{assert_noted, assert_points, read_bytes, read_text};
 use crate::material::ModulusKind;
 
 const OSC: &str = "T=-10;Mw=94.9;chem=PI;label=PI88k;PDI=1.03;\nFreq\tG'\tG\"\tTemp\tStrain\tTorque\tTemp\nrad/s\tPa\tPa\t°C\t%\tN-m\t°C\n\
@@ -19,13 +19,7 @@ fn the_first_three_columns_and_the_temperature_of_the_head_are_read() {
         let file = read_bytes(bytes, ModulusKind::Shear).unwrap();
         assert_eq!(file.format, DynamicFormat::Reptate);
         assert_points(&file, &expected);
-        assert!(
-            file.notes
-                .iter()
-                .any(|note| note.contains("1 row passed over")),
-            "{:?}",
-            file.notes
-        );
+        assert_noted(&file, "1 row passed over");
     }
     let tts = "C1=8.8;T = -35 ;isof=true;Mw=1131;\n1e-3 100 1000\n1 2e4 3e4\n1e3\t5e5\t1e5\n";
     let file = read_text(tts, ModulusKind::Shear).unwrap();
@@ -37,13 +31,7 @@ fn the_first_three_columns_and_the_temperature_of_the_head_are_read() {
             [238.15, 1e3, 5e5, 1e5],
         ],
     );
-    assert!(
-        file.notes
-            .iter()
-            .any(|note| note.contains("no row of units")),
-        "{:?}",
-        file.notes
-    );
+    assert_noted(&file, "no row of units");
     let kilopascal = OSC.replace("\tPa\tPa\t", "\tkPa\tkPa\t");
     let file = read_text(&kilopascal, ModulusKind::Shear).unwrap();
     assert_eq!(file.data.isotherms()[0].points[0].storage_modulus_pa, 1e7);

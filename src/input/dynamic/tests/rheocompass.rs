@@ -1,7 +1,7 @@
 //! Exports of RheoCompass.
 
 use crate::input::dynamic::DynamicFormat;
-use crate::input::dynamic::tests::{assert_points, read_bytes, read_text};
+use crate::input::dynamic::tests::{assert_noted, assert_points, read_bytes, read_text};
 use crate::material::ModulusKind;
 
 const FILE: &str = "Project:\tpolymer\r\nTest:\tFrequency sweep\r\n\r\nResult:\tFS 25 °C\r\n\r\nInterval and data \
@@ -35,11 +35,7 @@ fn intervals_are_read_from_every_encoding_and_delimiter() {
         let file = read_bytes(&bytes, ModulusKind::Shear).unwrap();
         assert_eq!(file.format, DynamicFormat::RheoCompass);
         assert_points(&file, &EXPECTED);
-        assert!(
-            file.notes.iter().any(|note| note.contains("invalid")),
-            "{:?}",
-            file.notes
-        );
+        assert_noted(&file, "invalid");
     }
 }
 

@@ -1,7 +1,7 @@
 //! CSV that TRIOS exports.
 
 use crate::input::dynamic::DynamicFormat;
-use crate::input::dynamic::tests::{TAU, assert_points, read_bytes, read_text};
+use crate::input::dynamic::tests::{TAU, assert_noted, assert_points, read_bytes, read_text};
 use crate::material::ModulusKind;
 
 const FILE: &str = "\u{feff}Filename,film\nOperator,Müller\nrundate,3/6/2026\nGeometry name,\"Tension, film\"\n[step]\nTemperature Sweep \
@@ -44,13 +44,7 @@ fn a_stray_byte_changes_nothing_but_itself() {
     bytes[at + 1] = b'?';
     let file = read_bytes(&bytes, ModulusKind::Longitudinal).unwrap();
     assert_points(&file, &EXPECTED);
-    assert!(
-        file.notes
-            .iter()
-            .any(|note| note.contains("1 byte is no UTF-8")),
-        "{:?}",
-        file.notes
-    );
+    assert_noted(&file, "1 byte is no UTF-8");
     // The whole in Latin-1.
     let latin: Vec<u8> = FILE.chars().skip(1).map(|c| c as u8).collect();
     assert_points(
