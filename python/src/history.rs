@@ -186,7 +186,8 @@ impl History {
             if let Some(map) = &map {
                 map.write(&store).map_err(stored)?;
             }
-            let written = scenario_tables::write(&store, &plan, &self.outcome);
+            let profiles = scenario_tables::profiles(&self.outcome);
+            let written = scenario_tables::write(&store, &plan, (&self.outcome, &profiles));
             written.map_err(|error| failure::of_report(&error))?;
             store.remove_stale().map_err(stored)?;
             let circumstances = Circumstances {

@@ -21,13 +21,13 @@ use crate::measured::Options;
 use crate::quantity::{Dimension, parse};
 use crate::report::caption::Setting as CaptionSetting;
 use crate::report::comparison::SweepTable;
+use crate::report::kept_figures::KeptFigures;
 use crate::report::measured::{
     self, ANALYSIS, Analysis, Computed, MeasuredRow, columns, ordered, text,
 };
 use crate::report::{figure, machine, page};
 use crate::sweep::record::Status;
 use crate::sweep::search::run;
-use crate::sweep::store::RESOLVED;
 use crate::sweep::store::manifest::{Kind, Target};
 
 #[derive(Debug, Args)]
@@ -121,11 +121,13 @@ pub(super) fn run(flags: &AnalyseFlags, format: OutputFormat) -> Result<Ended, F
         rows: ordered(rows),
         computed: computed.unwrap_or_default(),
     };
-    finish(
-        &target,
-        &analysis,
-        (!flags.no_figures, flags.work.quiet, format),
-    )
+    let figures = figure::measured::figures(&analysis);
+    let drawn = (&figures[..], &CaptionSetting::default(), !flags.no_figures);
+    let files = measured::files(&analysis).map_err(Failure::run)?;
+    write_result(&target, files, drawn, |pictures, _| {
+        page::measured::page(&analysis, &figures, pictures)
+    })?;
+    told(&flags.out, &analysis, (flags.work.quiet, format))
 }
 
 /// What the files come to, in their order; `None` where Ctrl-C came first. Nothing is written until all are there, so that what is
@@ -163,35 +165,24 @@ fn rows(
     Ok(None)
 }
 
-/// What is written and printed: whether there are figures, whether nothing is printed, and how it is.
-type Asked = (bool, bool, OutputFormat);
-
-/// Draws tables and figures of a folder again, where it holds an analysis; `None` where it holds none.
-pub(super) fn again(
-    folder: &Path,
-    (out, force): (Option<&Path>, bool),
-    asked: Asked,
-) -> Option<Result<Ended, Failure>> {
+/// The analysis of a folder.
+pub(super) fn stored(folder: &Path) -> Result<Analysis, Failure> {
     let path = folder.join(ANALYSIS);
-    if !path.exists() || folder.join(RESOLVED).exists() {
-        return None;
-    }
-    let name = path.display();
-    let read = || {
-        let bytes = read_bytes(&path, MAX_BYTES)?;
-        serde_json::from_slice::<Analysis>(&bytes).map_err(|error| {
-            Failure::input(format!(
-                "{name} is none that this version of the program wrote: {error}"
-            ))
-        })
-    };
-    let target = Target {
-        folder: out.unwrap_or(folder),
-        kind: Kind::Analysis,
-        force,
-        reads: &[],
-    };
-    Some(read().and_then(|analysis| finish(&target, &analysis, asked)))
+    serde_json::from_slice(&read_bytes(&path, MAX_BYTES)?).map_err(|error| {
+        Failure::input(format!(
+            "{} is none that this version of the program wrote: {error}",
+            path.display()
+        ))
+    })
+}
+
+/// Its figures and page.
+pub(super) fn figures(analysis: &Analysis) -> Result<KeptFigures, Failure> {
+    let figures = figure::measured::figures(analysis);
+    let (kept, _) = KeptFigures::of(&figures, &CaptionSetting::default(), |pictures| {
+        page::measured::page(analysis, &figures, pictures)
+    })?;
+    Ok(kept)
 }
 
 /// The cases of a computed sweep, with their cycles.
@@ -236,14 +227,12 @@ fn cycle(file: &Path) -> Result<Vec<(f64, f64)>, Failure> {
     Ok(signal.load_n.into_iter().zip(signal.approach_m).collect())
 }
 
-/// Writes and prints everything.
-fn finish(
-    target: &Target<'_>,
+/// Prints the analysis of a folder.
+pub(super) fn told(
+    folder: &Path,
     analysis: &Analysis,
-    (figures, quiet, format): Asked,
+    (quiet, format): (bool, OutputFormat),
 ) -> Result<Ended, Failure> {
-    write(target, analysis, figures)?;
-    let folder = target.folder;
     let found = || {
         Ok(json!({
             "folder": folder,
@@ -262,19 +251,4 @@ fn finish(
         true => Ended::Done,
         false => Ended::SomeCasesWithoutResult,
     })
-}
-
-/// Writes everything.
-fn write(target: &Target<'_>, analysis: &Analysis, with_figures: bool) -> Result<(), Failure> {
-    let files = measured::files(analysis).map_err(Failure::run)?;
-    let figures = match with_figures {
-        true => figure::measured::figures(analysis),
-        false => Vec::new(),
-    };
-    write_result(
-        target,
-        files,
-        (&figures, &CaptionSetting::default()),
-        |pictures, _| page::measured::page(analysis, &figures, pictures),
-    )
 }

@@ -6,7 +6,8 @@ use clap_complete::Shell;
 use super::failure::{Ended, Failure};
 use super::output::{OutputFormat, write_out};
 use super::{
-    analyse, compare, identify, material, plan, renew, reproduce, schema, simulate, stored, sweep,
+    analyse, compare, identify, material, merge, plan, renew, report, reproduce, schema, simulate,
+    sweep,
 };
 
 /// Dynamic mechanical analysis by contact: what a viscoelastic half-space dissipates under an oscillating indenter.
@@ -43,9 +44,9 @@ enum Command {
     /// Print the cases of a sweep file and their approximate cost
     Plan(plan::PlanFlags),
     /// Join the shards of a sweep that have folders of their own
-    Merge(stored::MergeFlags),
-    /// Redraw tables and figures from stored records, without solving
-    Report(stored::ReportFlags),
+    Merge(merge::MergeFlags),
+    /// Redraw tables and figures of a folder of results, without solving
+    Report(report::ReportFlags),
     /// Compare two results of a sweep and report where they differ
     Compare(compare::CompareFlags),
     /// Read frequency, drift, loss, phase, harmonics and moduli from measured loops, with 95 % intervals
@@ -91,8 +92,8 @@ impl Arguments {
         match self.command {
             Command::Sweep(flags) => sweep::run(&flags, format),
             Command::Plan(flags) => plan::run(&flags, format),
-            Command::Merge(flags) => stored::merge(&flags, format),
-            Command::Report(flags) => stored::report(&flags, format),
+            Command::Merge(flags) => merge::run(&flags, format),
+            Command::Report(flags) => report::run(&flags, format),
             Command::Analyse(flags) => analyse::run(&flags, format),
             Command::Compare(flags) => compare::run(&flags, format),
             Command::Simulate(flags) => simulate::run(&flags, format),

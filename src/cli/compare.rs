@@ -9,15 +9,13 @@ use serde_json::{Value, json};
 use super::documents::read_bytes;
 use super::failure::{Ended, Failure};
 use super::flags::OutFlags;
+use super::folders::{refuse_other, write_figures};
 use super::output::{OutputFormat, tell};
-use super::stored;
+use crate::report::caption::Setting;
 use crate::report::comparison::{Comparison, RunFacts, Source, SweepTable, Tolerances};
-use crate::report::figure::{
-    self,
-    press::{Files, Press},
-};
-use crate::report::page::comparison::Compared;
-use crate::report::page::{self, Pictures};
+use crate::report::figure::{self, press::Files};
+use crate::report::kept_figures::KeptFigures;
+use crate::report::page::{self, comparison::Compared};
 use crate::sweep::plan::figures::FigurePlan;
 use crate::sweep::store::RESOLVED;
 use crate::sweep::store::manifest::{Kind, Target, kind_of};
@@ -71,7 +69,7 @@ pub(super) fn run(flags: &CompareFlags, format: OutputFormat) -> Result<Ended, F
     let reads = [flags.baseline.clone(), flags.new.clone()];
     let target = flags.to.target(Kind::Comparison, &reads)?;
     for result in &reads {
-        refuse_other(result)?;
+        refuse_without_table(result)?;
     }
     let baseline = open(&flags.baseline, None)?;
     let new = open(&flags.new, Some(&baseline.table))?;
@@ -102,10 +100,10 @@ fn to_json(comparison: &Comparison) -> Value {
 }
 
 /// Refuses a folder without a table of cycles.
-fn refuse_other(result: &Path) -> Result<(), Failure> {
+fn refuse_without_table(result: &Path) -> Result<(), Failure> {
     match kind_of(result) {
         Ok(Some(Kind::Analysis)) => Ok(()),
-        _ if result.is_dir() => stored::refuse_other(result, "compare"),
+        _ if result.is_dir() => refuse_other(result, "compare"),
         _ => Ok(()),
     }
 }
@@ -117,32 +115,23 @@ fn write(
     tolerances: &Tolerances,
     [baseline, new]: [&Opened; 2],
 ) -> Result<Vec<String>, Failure> {
-    let pictures = Pictures::default();
-    let files = Files::default();
-    let write = |name: &str, bytes: &[u8]| {
-        files.insert(name, bytes);
-        Ok(())
+    let (figures, why) = match figure::comparison::figure(comparison) {
+        Ok(figure) => (vec![figure], None),
+        Err(why) => (Vec::new(), Some(why.to_owned())),
     };
-    let press = Press {
-        plan: &FigurePlan::default(),
-        write: &write,
-        pictures: &pictures,
-    };
-    let mut left_out: Vec<String> = figure::comparison::write(comparison, &press)?
-        .into_iter()
-        .collect();
-    left_out.extend(pictures.not_drawn());
-    let page = page::comparison::page(&Compared {
-        comparison,
-        tolerances,
-        baseline: &baseline.table,
-        new: &new.table,
-        sources: [&baseline.source, &new.source],
-        pictures: &pictures,
+    let (kept, not_drawn) = KeptFigures::of(&figures, &Setting::default(), |pictures| {
+        page::comparison::page(&Compared {
+            comparison,
+            tolerances,
+            baseline: &baseline.table,
+            new: &new.table,
+            sources: [&baseline.source, &new.source],
+            pictures,
+        })
     })?;
-    files.insert("index.html", page);
-    target.write(files.into_vec())?;
-    Ok(left_out)
+    let files = Files::of([("comparison.csv", comparison.table())]);
+    let left_out = write_figures(target, (kept, true), &FigurePlan::default(), files)?;
+    Ok(why.into_iter().chain(not_drawn).chain(left_out).collect())
 }
 
 /// A result and where it comes from.

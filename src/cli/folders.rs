@@ -1,4 +1,4 @@
-//! Folders that commands write: where they are, and the figures in them.
+//! Folders that commands write and read: where they are, the figures in them, the plan that one says it holds.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -8,15 +8,23 @@ use super::failure::Failure;
 use super::flags::RunFlags;
 use super::output::warn;
 use super::progress;
+use crate::input::diagnostic::Diagnostics;
 use crate::input::document::Document;
+use crate::input::figures_block::{self, Figures};
+use crate::input::{keys, scenario_file, sweep_file};
 use crate::report::ReportError;
 use crate::report::caption::Setting;
 use crate::report::figure::Figure;
-use crate::report::figure::press::{Files, Press};
+use crate::report::figure::press::Files;
+use crate::report::kept_figures::{KEPT, KeptFigures};
 use crate::report::page::Pictures;
+use crate::simulation::scenario::{self, ScenarioPlan};
+use crate::sweep::case::Setup;
+use crate::sweep::plan::SweepPlan;
 use crate::sweep::plan::figures::FigurePlan;
-use crate::sweep::store::Store;
-use crate::sweep::store::manifest::Target;
+use crate::sweep::plan::resolved::{identity, resolved_text};
+use crate::sweep::store::manifest::{Kind, Target, kind_of};
+use crate::sweep::store::{RESOLVED, Store, difference};
 
 /// The folder for the results of a file: the one asked for, or `reports/<name of the file>`; of standard input, `reports/stdin`.
 pub(super) fn folder_of(flags: &RunFlags) -> PathBuf {
@@ -44,35 +52,136 @@ pub(super) fn open_store(
     )?)
 }
 
-/// Writes the files of a result, with these figures and a page, which is made of the pictures and the name of the first one; without
-/// figures there is no page.
+/// Writes the files of a result, with these figures, drawn or not, and a page, which is made of the pictures and the name of the
+/// first one; without figures there is no page.
 pub(super) fn write_result<N: Into<String>>(
     target: &Target<'_>,
     result: impl IntoIterator<Item = (N, Vec<u8>)>,
-    (figures, setting): (&[Figure], &Setting),
+    (figures, setting, drawn): (&[Figure], &Setting, bool),
     page: impl FnOnce(&Pictures, &str) -> Result<String, ReportError>,
 ) -> Result<(), Failure> {
-    let (files, pictures) = (Files::default(), Pictures::default());
-    for (name, bytes) in result {
-        files.insert(name, bytes);
-    }
-    let write = |name: &str, bytes: &[u8]| {
-        files.insert(name, bytes);
-        Ok(())
+    let files = Files::of(result);
+    let (kept, mut left_out) =
+        KeptFigures::of(figures, setting, |pictures| match figures.first() {
+            Some(first) => page(pictures, first.name),
+            None => Ok(String::new()),
+        })?;
+    left_out.extend(write_figures(
+        target,
+        (kept, drawn),
+        &FigurePlan::default(),
+        files,
+    )?);
+    left_out.iter().for_each(|reason| warn(reason));
+    Ok(())
+}
+
+/// Writes these files, and these figures as asked, drawn or not. Returns what could not be drawn and why.
+pub(super) fn write_figures(
+    target: &Target<'_>,
+    (mut figures, drawn): (KeptFigures, bool),
+    asked: &FigurePlan,
+    files: Files,
+) -> Result<Vec<String>, Failure> {
+    files.insert(KEPT, figures.to_json(asked).map_err(Failure::run)?);
+    let left_out = match drawn {
+        true => figures.draw(asked, &files)?,
+        false => Vec::new(),
     };
-    let press = Press {
-        plan: &FigurePlan::default(),
-        write: &write,
-        pictures: &pictures,
-    };
-    press.figures(figures, setting)?;
-    for reason in pictures.not_drawn() {
-        warn(&reason);
+    target.write(files.into_vec())?;
+    Ok(left_out)
+}
+
+/// How figures are asked to look that have no axes of a sweep or history: by a `[figures]` table, which messages call `name`, as
+/// changed by the `--set` flags.
+pub(super) fn figure_plan(name: &str, table: &str, set: &[String]) -> Result<FigurePlan, Failure> {
+    let mut document = Document::parse(name, table)?;
+    for assignment in set {
+        document.set(assignment)?;
     }
-    if let Some(first) = figures.first() {
-        files.insert("index.html", page(&pictures, first.name)?);
+    Ok(document.read_whole(|root| {
+        let default = Figures::default();
+        let figures = root.table_or(&keys::SCENARIO_FIGURES, default, figures_block::read)?;
+        let is_fixed = || Err("each has units of its own");
+        figures.checked(is_fixed, root.problems())
+    })?)
+}
+
+/// Refuses the folder of another command where a sweep is needed.
+pub(super) fn refuse_other(folder: &Path, command: &str) -> Result<(), Failure> {
+    match kind_of(folder)? {
+        None | Some(Kind::Sweep) => Ok(()),
+        Some(kind) => Err(Failure::Input(format!(
+            "{} holds {}; `{command}` takes folders of sweeps",
+            folder.display(),
+            kind.text()
+        ))),
     }
-    Ok(target.write(files.into_vec())?)
+}
+
+/// Names of cases in a message before the rest is counted.
+pub(super) const NAMED: usize = 10;
+
+/// A kind of plan that folders hold: how it is read and written, what it is called, and the command that computes it.
+pub(super) struct Stored<P> {
+    read: fn(&Document) -> Result<P, Diagnostics>,
+    pub(super) resolved: fn(&P) -> String,
+    what: &'static str,
+    command: &'static str,
+}
+
+pub(super) const SWEEP: Stored<SweepPlan> = Stored {
+    read: sweep_file::plan,
+    resolved: resolved_text,
+    what: "sweep",
+    command: "sweep",
+};
+pub(super) const SCENARIO: Stored<ScenarioPlan> = Stored {
+    read: scenario_file::plan,
+    resolved: scenario::resolved_text,
+    what: "scenario",
+    command: "simulate",
+};
+
+/// The plan that a folder says it holds, by this text, its figures changed as asked.
+pub(super) fn stored_plan<P>(
+    Stored {
+        read,
+        resolved,
+        what,
+        command,
+    }: &Stored<P>,
+    (folder, text): (&Path, &str),
+    set: &[String],
+) -> Result<P, Failure> {
+    let name = folder.join(RESOLVED).display().to_string();
+    let mut document = Document::parse(&name, text)?.in_folder(folder);
+    let mut plan = read(&document)?;
+    if resolved(&plan) != text {
+        return Err(Failure::Input(format!(
+            "{name} is not as this version of the program would write it: run the {what} again"
+        )));
+    }
+    if !set.is_empty() {
+        for assignment in set {
+            document.set(assignment)?;
+        }
+        plan = read(&document)?;
+        let changed = resolved(&plan);
+        if identity(&changed) != identity(text) {
+            return Err(Failure::Input(format!(
+                "`report` solves nothing, and --set can change [figures] alone; this is another {what}:\n{}for it run \
+                 `contact-dma {command}`",
+                difference::lines(&identity(text), &identity(&changed), NAMED)
+            )));
+        }
+    }
+    Ok(plan)
+}
+
+/// The sweep that a folder says it holds.
+pub(super) fn stored_sweep(stored: (&Path, &str), set: &[String]) -> Result<Setup, Failure> {
+    Setup::new(stored_plan(&SWEEP, stored, set)?).map_err(Failure::input)
 }
 
 /// The lines that say where the files are; none where none were written.

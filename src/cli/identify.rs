@@ -65,11 +65,8 @@ pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, 
         curves: &curves,
     };
     let block = block(&report)?;
-    let figures = match flags.no_figures {
-        true => Vec::new(),
-        false => figure::identify::figures(&report),
-    };
-    let drawn = (&figures[..], &Setting::default());
+    let figures = figure::identify::figures(&report);
+    let drawn = (&figures[..], &Setting::default(), !flags.no_figures);
     write_result(&target, report.files(&block), drawn, |pictures, _| {
         page::identify::page(&report, &figures, &block, pictures)
     })?;

@@ -178,7 +178,8 @@ pub(super) fn run(
             .filter_map(|(name, bytes)| Some((name, bytes?)));
         let figures = figure::fit::figures(&table, &fit);
         let setting = Setting::of_material(&material);
-        write_result(target, files, (&figures, &setting), |pictures, figure| {
+        let drawn = (&figures[..], &setting, true);
+        write_result(target, files, drawn, |pictures, figure| {
             let name = data.file_name().unwrap_or_default();
             let about = About {
                 title: &format!("Fit to {}", name.display()),

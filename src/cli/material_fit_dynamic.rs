@@ -46,7 +46,7 @@ pub(super) fn run(flags: &FitFlags, format: OutputFormat) -> Result<Ended, Failu
     let shifting = shifting.as_deref();
     if let Some(target) = &target {
         let figures = figure::dynamic::figures(&report);
-        let drawn = (&figures[..], &Setting::default());
+        let drawn = (&figures[..], &Setting::default(), true);
         write_result(
             target,
             report.files(&block, shifting),

@@ -50,7 +50,7 @@ pub(super) fn run(flags: &ShowFlags, format: OutputFormat) -> Result<Ended, Fail
     let report = MaterialReport::new(&material);
     if let Some(target) = &target {
         let setting = Setting::of_material(&material);
-        let drawn = (&report.figures()[..], &setting);
+        let drawn = (&report.figures()[..], &setting, true);
         let nothing_else: [(&str, _); 0] = [];
         write_result(target, nothing_else, drawn, |pictures, figure| {
             let about = About {

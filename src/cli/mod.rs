@@ -23,14 +23,15 @@ mod material_fit_dynamic;
 mod material_show;
 mod meant_for;
 mod memory;
+mod merge;
 mod output;
 mod plan;
 mod progress;
 mod renew;
+mod report;
 mod reproduce;
 mod schema;
 mod simulate;
-mod stored;
 mod sweep;
 
 use std::ffi::OsString;

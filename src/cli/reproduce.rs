@@ -6,12 +6,11 @@ use clap::Args;
 
 use super::failure::{Ended, Failure};
 use super::flags::{WorkFlags, folder};
+use super::folders::figure_plan;
 use super::interruption;
 use super::output::{OutputFormat, tell};
 use super::progress::line;
 use crate::input::document::Document;
-use crate::input::figures_block::{self, Figures};
-use crate::input::keys;
 use crate::input::{scenario_file, sweep_file};
 use crate::report::machine::object;
 use crate::report::table::Cell;
@@ -19,7 +18,6 @@ use crate::report::text::Text;
 use crate::reproduction::{
     self, Count, FIGURES, Figure, Plans, ReproductionError, SCENARIOS, SWEEPS, Verdict,
 };
-use crate::sweep::plan::figures::FigurePlan;
 use crate::sweep::store::manifest::{Kind, Target};
 
 const DEFAULT_FOLDER: &str = "reports/spinu-2018";
@@ -66,7 +64,7 @@ fn figure_number(text: &str) -> Result<u8, String> {
 /// Runs the command.
 pub(super) fn run(flags: &ReproduceFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let plans = plans()?;
-    let figures = figures(&flags.set)?;
+    let figures = figure_plan("command line", "", &flags.set)?;
     let wanted = match &flags.figures[..] {
         [] => &FIGURES,
         some => some,
@@ -103,20 +101,6 @@ pub(super) fn run(flags: &ReproduceFlags, format: OutputFormat) -> Result<Ended,
     tell(format, flags.work.quiet, found, || {
         Ok(text(&made, &flags.out))
     })
-}
-
-/// How the figures are asked to look.
-fn figures(set: &[String]) -> Result<FigurePlan, Failure> {
-    let mut document = Document::parse("command line", "")?;
-    for assignment in set {
-        document.set(assignment)?;
-    }
-    Ok(document.read_whole(|root| {
-        let default = Figures::default();
-        let figures = root.table_or(&keys::SCENARIO_FIGURES, default, figures_block::read)?;
-        let in_units_of_the_paper = || Err("each is in units of the paper already");
-        figures.checked(in_units_of_the_paper, root.problems())
-    })?)
 }
 
 /// The plans of the files built into the program.

@@ -14,10 +14,11 @@ use super::progress::{bar, line};
 use super::{interruption, meant_for};
 use crate::input::scenario_file;
 use crate::report::quantities::{self, Moment};
+use crate::report::scenario_tables::History;
 use crate::report::words::nodes;
 use crate::report::{self, machine, terminal_simulation};
 use crate::simulation::checkpoint::{HistoryCheckpoint, HistoryState};
-use crate::simulation::scenario;
+use crate::simulation::scenario::{self, ScenarioPlan};
 use crate::simulation::{Simulation, SimulationEnd, SimulationOutcome};
 use crate::sweep::search::run;
 use crate::sweep::store::provenance::{Circumstances, Stopwatch};
@@ -58,17 +59,12 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
     let plan = scenario_file::plan(&document)?;
     let simulation = Simulation::new(plan).map_err(Failure::input)?;
     if flags.dry_run {
-        let found = || {
-            let steps = simulation.schedule().moments.len();
-            Ok(serde_json::json!({
-                "title": simulation.plan().title,
-                "engine": simulation.plan().solver.engine.name(),
-                "time_steps": steps,
-                "time_steps_for_errors": simulation.moments() - steps,
-                "memory_bytes": simulation.predicted_memory_bytes(),
-            }))
-        };
-        return tell(format, false, found, || Ok(predicted(&simulation).into()));
+        return tell(
+            format,
+            false,
+            || Ok(to_json(&simulation)),
+            || Ok(predicted(&simulation).into()),
+        );
     }
     let resolved = scenario::resolved_text(simulation.plan());
     let store = open_store(&flags.run, &document, &resolved)?;
@@ -89,40 +85,84 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
         (outcome, checkpoint)
     });
     bar.finish_and_clear();
-    let write = match flags.run.no_figures {
-        true => report::scenario::write_tables,
-        false => report::scenario::write,
+    let run = Run {
+        command: "simulate",
+        clock,
+        threads,
+        figures: !flags.run.no_figures,
+        quiet,
+        format,
     };
-    let left_out = write(&store, simulation.plan(), &outcome)?;
-    if outcome.ended != SimulationEnd::Interrupted {
+    let history = History::from(outcome);
+    let left_out = run.write(&store, simulation.plan(), &history)?;
+    let ended = &history.outcome.ended;
+    if *ended != SimulationEnd::Interrupted {
         checkpoint.remove();
     }
-    let circumstances = Circumstances {
-        command: "simulate",
-        threads,
-        shard: None,
-        cases_computed: None,
-        cases_found: None,
-        interrupted: outcome.ended == SimulationEnd::Interrupted,
-    };
-    clock.write(&store, &simulation.plan().solver, None, &circumstances)?;
-    let folder = store.folder().display();
-    if let SimulationEnd::Failed(message) = &outcome.ended {
+    if let SimulationEnd::Failed(message) = ended {
         return Err(Failure::run(format!(
-            "{message}\n  what came before is in {folder}"
+            "{message}\n  what came before is in {}",
+            store.folder().display()
         )));
     }
-    let text = || {
-        let mut text = terminal_simulation::text(simulation.plan(), &outcome);
-        text.append(left_out.join("\n"));
-        text.append(format!("\nResults in {folder}"));
-        Ok(text)
-    };
-    tell(format, quiet, || found_in(&store, &outcome), text)?;
-    Ok(match outcome.ended {
+    run.tell(&store, simulation.plan(), (&history, &left_out))?;
+    Ok(match ended {
         SimulationEnd::Interrupted => Ended::Interrupted,
         _ => Ended::Done,
     })
+}
+
+/// A command that has a history, and how it is written and printed.
+pub(super) struct Run {
+    pub(super) command: &'static str,
+    pub(super) clock: Stopwatch,
+    pub(super) threads: usize,
+    /// Whether figures and page are drawn.
+    pub(super) figures: bool,
+    pub(super) quiet: bool,
+    pub(super) format: OutputFormat,
+}
+
+impl Run {
+    /// Writes tables, figures and where they come from. Returns what was left out and why.
+    pub(super) fn write(
+        &self,
+        store: &Store,
+        plan: &ScenarioPlan,
+        history: &History,
+    ) -> Result<Vec<String>, Failure> {
+        let left_out = match self.figures {
+            true => report::scenario::write(store, plan, history)?,
+            false => report::scenario::write_tables(store, plan, history)?,
+        };
+        let circumstances = Circumstances {
+            command: self.command,
+            threads: self.threads,
+            shard: None,
+            cases_computed: None,
+            cases_found: None,
+            interrupted: history.outcome.ended == SimulationEnd::Interrupted,
+        };
+        self.clock
+            .write(store, &plan.solver, None, &circumstances)?;
+        Ok(left_out)
+    }
+
+    /// Prints the history, and what was left out.
+    pub(super) fn tell(
+        &self,
+        store: &Store,
+        plan: &ScenarioPlan,
+        (History { outcome, .. }, left_out): (&History, &[String]),
+    ) -> Result<Ended, Failure> {
+        let text = || {
+            let mut text = terminal_simulation::text(plan, outcome);
+            text.append(left_out.join("\n"));
+            text.append(format!("\nResults in {}", store.folder().display()));
+            Ok(text)
+        };
+        tell(self.format, self.quiet, || found_in(store, outcome), text)
+    }
 }
 
 /// What the folder holds, as one object.
@@ -133,6 +173,18 @@ fn found_in(store: &Store, outcome: &SimulationOutcome) -> Result<serde_json::Va
         "history": machine::rows(&quantities::of_moments(), &moments),
         "cycles": machine::rows(&quantities::of_cycles(), &outcome.cycles),
     }))
+}
+
+/// What would be computed, as one object.
+fn to_json(simulation: &Simulation) -> serde_json::Value {
+    let steps = simulation.schedule().moments.len();
+    serde_json::json!({
+        "title": simulation.plan().title,
+        "engine": simulation.plan().solver.engine.name(),
+        "time_steps": steps,
+        "time_steps_for_errors": simulation.moments() - steps,
+        "memory_bytes": simulation.predicted_memory_bytes(),
+    })
 }
 
 /// What would be computed, and about the memory it takes.

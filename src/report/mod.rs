@@ -3,7 +3,7 @@
 //! The feature `tables` has columns and tables alone, the feature `report` figures and pages too.
 //!
 //! Its parts from top to bottom, each of which may use those above it: numbers, words, text that is laid out for a terminal; peaks; lines over the surface;
-//! tables, and the quantities that are their columns; tables of sweeps and scenarios; captions; comparison; chart; figure; material; page; summary and results for
+//! tables, and the quantities that are their columns, by which they are read back too; tables of sweeps and scenarios; captions; comparison; chart; figure; material; page; figures that are kept; summary and results for
 //! programs; terminal; scenario. A test holds them to that.
 //!
 //! ```
@@ -41,6 +41,8 @@ pub mod dynamic;
 pub mod figure;
 pub mod fit;
 pub mod identify;
+#[cfg(feature = "report")]
+pub mod kept_figures;
 pub mod machine;
 #[cfg(feature = "report")]
 pub mod material;
@@ -59,10 +61,12 @@ pub mod rigid_indenter;
 pub mod samples;
 #[cfg(feature = "report")]
 pub mod scenario;
+pub mod scenario_folder;
 pub mod scenario_tables;
 pub mod summary;
 pub mod sweep_tables;
 pub mod table;
+pub mod table_reader;
 #[cfg(feature = "report")]
 pub mod terminal;
 #[cfg(feature = "report")]

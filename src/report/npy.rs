@@ -10,6 +10,19 @@ pub fn matrix(rows: usize, columns: usize, values: &[f64]) -> Vec<u8> {
     bytes
 }
 
+/// The values of a file that [`matrix`] has written of so many rows and columns; `None` of another one.
+pub fn values(rows: usize, columns: usize, bytes: &[u8]) -> Option<Vec<f64>> {
+    let data = bytes.strip_prefix(&header(&[rows, columns])[..])?;
+    let (values, rest) = data.as_chunks();
+    let is_whole = rest.is_empty() && Some(values.len()) == rows.checked_mul(columns);
+    is_whole.then(|| {
+        values
+            .iter()
+            .map(|value| f64::from_le_bytes(*value))
+            .collect()
+    })
+}
+
 /// How the .npy file of an array of this shape begins; the values follow, the last index fastest, each in eight bytes, little endian.
 pub fn header(shape: &[usize]) -> Vec<u8> {
     const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
@@ -44,6 +57,12 @@ mod tests {
         for (rows, columns) in [(1, 1), (2, 3), (1024, 7)] {
             let values: Vec<f64> = (0..rows * columns).map(|i| 0.1 * i as f64).collect();
             let bytes = matrix(rows, columns, &values);
+            assert_eq!(super::values(rows, columns, &bytes), Some(values.clone()));
+            assert_eq!(super::values(rows + 1, columns, &bytes), None);
+            assert_eq!(
+                super::values(rows, columns, &bytes[..bytes.len() - 1]),
+                None
+            );
             let header = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
             assert_eq!((10 + header) % 64, 0);
             let text = std::str::from_utf8(&bytes[10..10 + header]).unwrap();

@@ -1,16 +1,49 @@
 //! Lines along which a surface at one instant is shown: its radius, or the axes of its grid.
 
+use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::{CellSurface, Surface};
-use crate::simulation::SurfaceRecord;
+use crate::simulation::{HistoryRow, SurfaceRecord};
 
 /// One point of a profile. The pressure is absent where it is unbounded, the gap where there is no indenter or its place is
 /// unknown.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ProfilePoint {
     pub position_m: f64,
     pub pressure_pa: Option<f64>,
     pub displacement_m: f64,
     pub gap_m: Option<f64>,
+}
+
+/// The surface at one instant along its lines.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Profile {
+    pub row: HistoryRow,
+    /// The cells of the surface; `None` along a radius.
+    pub grid: Option<Grid>,
+    /// Along what, `r`, `x` or `y`, and the points.
+    pub lines: Vec<(String, Vec<ProfilePoint>)>,
+}
+
+impl Profile {
+    /// That of a surface.
+    pub fn of(record: &SurfaceRecord) -> Self {
+        let lines = lines(record).into_iter();
+        Self {
+            row: record.row,
+            grid: grid(record),
+            lines: lines
+                .map(|(line, points)| (line.to_owned(), points))
+                .collect(),
+        }
+    }
+}
+
+/// The cells of a surface.
+pub fn grid(record: &SurfaceRecord) -> Option<Grid> {
+    match &record.surface {
+        Surface::Radial(_) => None,
+        Surface::Cells(cells) => Some(cells.grid),
+    }
 }
 
 /// The lines along which a surface is shown: its radius, or the axes of its grid.

@@ -30,7 +30,22 @@ pub struct Column<R: 'static> {
     pub in_cases: Option<&'static str>,
     error: Option<fn(&R) -> Option<f64>>,
     pub compared: Option<Compared>,
+    /// Where value and error go that are read back from the table.
+    place: Option<PlaceIn<R>>,
+    error_place: Option<PlaceIn<R>>,
 }
+
+/// Where a value of a row goes that is read back from a table.
+pub enum Place<'a> {
+    Number(&'a mut f64),
+    /// Of a cell that may be empty.
+    Optional(&'a mut Option<f64>),
+    Count(&'a mut usize),
+    Text(&'a mut String),
+}
+
+/// The place of a value in a row.
+pub type PlaceIn<R> = for<'a> fn(&'a mut R) -> Place<'a>;
 
 /// How two values of a column are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,6 +72,8 @@ impl<R> Column<R> {
             in_cases: None,
             error: None,
             compared: None,
+            place: None,
+            error_place: None,
         }
     }
 
@@ -87,6 +104,18 @@ impl<R> Column<R> {
 
     pub(super) const fn with_error(mut self, error: fn(&R) -> Option<f64>) -> Self {
         self.error = Some(error);
+        self
+    }
+
+    /// Where the value goes that is read back.
+    pub(super) const fn read_into(mut self, place: PlaceIn<R>) -> Self {
+        self.place = Some(place);
+        self
+    }
+
+    /// Where the error goes that is read back.
+    pub(super) const fn error_into(mut self, place: PlaceIn<R>) -> Self {
+        self.error_place = Some(place);
         self
     }
 
@@ -121,6 +150,15 @@ impl<R> Column<R> {
             Some(dimension) => (dimension.si_unit(), 1.0),
             None => ("", 1.0),
         }
+    }
+
+    /// Its columns that are read back: the name of each, and where its values go.
+    pub(super) fn places(&self) -> impl Iterator<Item = (String, PlaceIn<R>)> {
+        let value = self.place.map(|place| (self.name.to_owned(), place));
+        let error = self
+            .error_place
+            .and_then(|place| Some((self.error_name()?, place)));
+        value.into_iter().chain(error)
     }
 
     /// Its columns of values in a table: one, but for branches.
@@ -243,6 +281,7 @@ type OfMoment = Column<Moment>;
 
 use Compared::{Absolutely, Relatively};
 use Dimension::{Energy, Length, Stress};
+use Place::{Count, Number, Optional};
 
 /// Which case it is; what has an error bar; what has none, and how the numbers came about.
 #[rustfmt::skip]
@@ -343,7 +382,7 @@ fn codes(record: &CaseRecord) -> String {
 }
 
 /// A row of a history with its errors.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Moment {
     pub row: HistoryRow,
     pub errors: RowErrors,
@@ -364,20 +403,24 @@ impl Moment {
 #[rustfmt::skip]
 pub static HISTORY: &[OfMoment] = &[
     OfMoment::new("time_s", |m| m.row.time_s.into(), "time; twice the same at a jump")
-        .called("time", Some(Dimension::Time)),
+        .called("time", Some(Dimension::Time)).read_into(|m| Number(&mut m.row.time_s)),
     OfMoment::new("load_n", |m| m.row.load_n.into(), "load W")
-        .called("load", Some(Dimension::Force)).with_error(|m| m.errors.load_n),
+        .called("load", Some(Dimension::Force)).with_error(|m| m.errors.load_n)
+        .read_into(|m| Number(&mut m.row.load_n)).error_into(|m| Optional(&mut m.errors.load_n)),
     OfMoment::new("approach_m", |m| m.row.approach_m.into(),
         "approach δ; empty where the indenter is clear of the surface under a prescribed load")
-        .called("approach", Some(Length)).with_error(|m| m.errors.approach_m),
+        .called("approach", Some(Length)).with_error(|m| m.errors.approach_m)
+        .read_into(|m| Optional(&mut m.row.approach_m)).error_into(|m| Optional(&mut m.errors.approach_m)),
     OfMoment::new("contact_radius_m", |m| m.row.contact_radius_m.into(),
         "contact radius a: that of the circle of the contact's area")
-        .called("radius", Some(Length)).with_error(|m| m.errors.contact_radius_m),
+        .called("radius", Some(Length)).with_error(|m| m.errors.contact_radius_m)
+        .read_into(|m| Number(&mut m.row.contact_radius_m)).error_into(|m| Optional(&mut m.errors.contact_radius_m)),
     OfMoment::new("contact_area_m2", |m| m.row.contact_area_m2().into(), "contact area")
         .called("contact area", Some(Dimension::Area)),
     OfMoment::new("peak_pressure_pa", |m| m.row.peak_pressure_pa.into(),
         "largest pressure in the contact; empty where it is unbounded")
-        .called("pressure", Some(Stress)).with_error(|m| m.errors.peak_pressure_pa),
+        .called("pressure", Some(Stress)).with_error(|m| m.errors.peak_pressure_pa)
+        .read_into(|m| Optional(&mut m.row.peak_pressure_pa)).error_into(|m| Optional(&mut m.errors.peak_pressure_pa)),
 ];
 
 /// Of a cycle that has numbers.
@@ -395,20 +438,24 @@ type OfCycle = Column<HistoryCycle>;
 /// The columns of `cycles.csv`.
 #[rustfmt::skip]
 pub static CYCLES: &[OfCycle] = &[
-    OfCycle::new("segment", |c| c.segment.into(), "the sine segment of the drive, from 1"),
-    OfCycle::new("cycle", |c| c.number.into(), "the cycle within it, from 1"),
+    OfCycle::new("segment", |c| c.segment.into(), "the sine segment of the drive, from 1").read_into(|c| Count(&mut c.segment)),
+    OfCycle::new("cycle", |c| c.number.into(), "the cycle within it, from 1").read_into(|c| Count(&mut c.number)),
     OfCycle::new("start_s", |c| c.start_s.into(), "when it begins").called("start", Some(Dimension::Time)),
     OfCycle::new("angular_frequency_rad_per_s", |c| c.angular_frequency_rad_per_s.into(), "angular frequency of the drive")
         .called("angular frequency", Some(Dimension::AngularFrequency)),
     OfCycle::new(OfLoop::EnergyLoss.column(), |c| of_cycle(c, |n| Some(n.analysis.energy_loss_j)),
         "area of the loop once a straight line has closed it; empty where the approach is undefined for a part of the cycle")
-        .called("loss / cycle", Some(Dimension::Energy)).with_error(|c| c.errors.energy_loss_j),
+        .called("loss / cycle", Some(Dimension::Energy)).with_error(|c| c.errors.energy_loss_j)
+        .error_into(|c| Optional(&mut c.errors.energy_loss_j)),
     OfCycle::new(OfLoop::PhaseLag.column(), |c| of_cycle(c, |n| Some(n.analysis.phase_lag_rad)), "lag of the approach behind the load, first harmonic")
-        .called("phase lag", Some(Dimension::Angle)).with_error(|c| c.errors.phase_lag_rad),
+        .called("phase lag", Some(Dimension::Angle)).with_error(|c| c.errors.phase_lag_rad)
+        .error_into(|c| Optional(&mut c.errors.phase_lag_rad)),
     OfCycle::new(OfLoop::StorageModulus.column(), |c| of_cycle(c, |n| n.moduli_pa.map(|m| m.0)), "E′ read from the first harmonic and the mean contact radius")
-        .called("E′", Some(Stress)).with_error(|c| c.errors.storage_modulus_pa),
+        .called("E′", Some(Stress)).with_error(|c| c.errors.storage_modulus_pa)
+        .error_into(|c| Optional(&mut c.errors.storage_modulus_pa)),
     OfCycle::new(OfLoop::LossModulus.column(), |c| of_cycle(c, |n| n.moduli_pa.map(|m| m.1)), "E″ likewise")
-        .called("E″", Some(Stress)).with_error(|c| c.errors.loss_modulus_pa),
+        .called("E″", Some(Stress)).with_error(|c| c.errors.loss_modulus_pa)
+        .error_into(|c| Optional(&mut c.errors.loss_modulus_pa)),
     OfCycle::new(OfLoop::LoadMean.column(), |c| of_cycle(c, |n| Some(n.analysis.load_mean_n)), "mean load").called("mean load", Some(Dimension::Force)),
     OfCycle::new(OfLoop::LoadAmplitude.column(), |c| of_cycle(c, |n| Some(first(n)?.load_amplitude_n)), "amplitude of its first harmonic")
         .called("load amplitude", Some(Dimension::Force)),
@@ -434,7 +481,12 @@ pub fn of_cycles() -> Vec<Named<HistoryCycle>> {
 
 /// `cycles.csv`: one row per cycle of the sine segments of a history.
 pub fn cycles(outcome: &SimulationOutcome) -> Vec<u8> {
-    named(&of_cycles(), &outcome.cycles)
+    table(CYCLES, &outcome.cycles)
+}
+
+/// A table of these columns, errors beside their values.
+pub(super) fn table<R>(columns: &[Column<R>], rows: &[R]) -> Vec<u8> {
+    named(&with_errors(columns, 0), rows)
 }
 
 /// The rows of these columns.

@@ -1,4 +1,4 @@
-//! What a scenario leaves in its folder: tables, figures and the page.
+//! What a scenario leaves in its folder: tables, figures and the page; of what was computed, or read from its folder.
 
 use super::ReportError;
 use crate::report::caption::Setting;
@@ -6,8 +6,7 @@ use crate::report::figure;
 use crate::report::figure::press::Press;
 use crate::report::figure::units::Units;
 use crate::report::page::{self, Pictures};
-use crate::report::scenario_tables;
-use crate::simulation::SimulationOutcome;
+use crate::report::scenario_tables::{self, History};
 use crate::simulation::scenario::ScenarioPlan;
 use crate::sweep::plan::figures::AxisUnits;
 use crate::sweep::store::Store;
@@ -19,11 +18,12 @@ use crate::sweep::store::Store;
 pub fn write(
     store: &Store,
     plan: &ScenarioPlan,
-    outcome: &SimulationOutcome,
+    history: &History,
 ) -> Result<Vec<String>, ReportError> {
-    scenario_tables::write(store, plan, outcome)?;
+    let History { outcome, profiles } = history;
+    scenario_tables::write(store, plan, (outcome, profiles))?;
     let pictures = Pictures::default();
-    let mut left_out = figures(store, plan, outcome, &pictures)?;
+    let mut left_out = figures(store, plan, history, &pictures)?;
     if plan.figures.axes != AxisUnits::Si
         && let Ok(history) = figure::history::figure(outcome, &Units::default())
     {
@@ -34,7 +34,7 @@ pub fn write(
         }
     }
     left_out.extend(pictures.not_drawn());
-    let page = page::simulation(plan, outcome, &pictures, store.sweep_hash())?;
+    let page = page::simulation(plan, (outcome, profiles), &pictures, store.sweep_hash())?;
     store.write("index.html", page.as_bytes())?;
     store.remove_stale()?;
     Ok(left_out)
@@ -47,9 +47,9 @@ pub fn write(
 pub fn write_tables(
     store: &Store,
     plan: &ScenarioPlan,
-    outcome: &SimulationOutcome,
+    History { outcome, profiles }: &History,
 ) -> Result<Vec<String>, ReportError> {
-    scenario_tables::write(store, plan, outcome)?;
+    scenario_tables::write(store, plan, (outcome, profiles))?;
     store.remove_stale()?;
     Ok(Vec::new())
 }
@@ -57,7 +57,7 @@ pub fn write_tables(
 fn figures(
     store: &Store,
     plan: &ScenarioPlan,
-    outcome: &SimulationOutcome,
+    History { outcome, profiles }: &History,
     pictures: &Pictures,
 ) -> Result<Vec<String>, ReportError> {
     let units = Units::of_scenario(plan)?;
@@ -73,7 +73,7 @@ fn figures(
         Err(why) => left_out.push(why.to_owned()),
     }
     figures.extend(figure::cycle_losses::figure(outcome, &units));
-    let (profiles, not_drawn) = figure::profiles::figure(&outcome.profiles, &units);
+    let (profiles, not_drawn) = figure::profiles::figure(profiles, &units);
     figures.extend(profiles);
     left_out.extend(not_drawn);
     press.figures(&figures, &setting)?;

@@ -6,21 +6,45 @@ use serde::Serialize;
 
 use super::ReportError;
 use super::npy;
-use super::profile_lines::lines;
-use super::quantities;
-use super::table::{self, Cell, cells, csv};
+use super::profile_lines::{self, Profile, ProfilePoint};
+use super::quantities::Place::{Count, Number, Optional, Text};
+use super::quantities::{self, Column, PlaceIn};
+use super::table::Cell;
 use super::vti;
+use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::Surface;
 use crate::simulation::body_material::BodyMaterial;
 use crate::simulation::outside_model;
 use crate::simulation::scenario::ScenarioPlan;
-use crate::simulation::{SimulationEnd, SimulationOutcome, SurfaceRecord};
+use crate::simulation::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
 use crate::sweep::store::Store;
 
 /// The table of time steps.
 pub(super) const HISTORY: &str = "history.csv";
 /// The table of cycles of sine segments, where there are any.
-const CYCLES: &str = "cycles.csv";
+pub(super) const CYCLES: &str = "cycles.csv";
+/// What the simulation came to.
+pub(super) const SUMMARY: &str = "summary.json";
+
+/// A history with its profiles along their lines: all that its tables, figures and page are made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct History {
+    /// Without profiles of its own where it was read from a folder.
+    pub outcome: SimulationOutcome,
+    pub profiles: Vec<Profile>,
+}
+
+impl From<SimulationOutcome> for History {
+    fn from(outcome: SimulationOutcome) -> Self {
+        let profiles = profiles(&outcome);
+        Self { outcome, profiles }
+    }
+}
+
+/// The profiles of a history.
+pub fn profiles(outcome: &SimulationOutcome) -> Vec<Profile> {
+    outcome.profiles.iter().map(Profile::of).collect()
+}
 
 /// Writes the tables, as far as the simulation came.
 ///
@@ -29,21 +53,24 @@ const CYCLES: &str = "cycles.csv";
 pub fn write(
     store: &Store,
     plan: &ScenarioPlan,
-    outcome: &SimulationOutcome,
+    (outcome, profiles): (&SimulationOutcome, &[Profile]),
 ) -> Result<(), ReportError> {
     store.write(HISTORY, &quantities::history(outcome))?;
     if !outcome.cycles.is_empty() {
         store.write(CYCLES, &quantities::cycles(outcome))?;
     }
-    store.write("summary.json", &summary(plan, outcome, store.sweep_hash())?)?;
-    if !outcome.profiles.is_empty() {
-        store.write("profiles/index.csv", &index(&outcome.profiles))?;
-        for (k, record) in outcome.profiles.iter().enumerate() {
-            store.write(format!("profiles/{k}.csv"), &profile(record))?;
+    store.write(SUMMARY, &summary(plan, outcome, store.sweep_hash())?)?;
+    if !profiles.is_empty() {
+        let surfaces = profiles.iter().map(|profile| (profile.row, profile.grid));
+        store.write("profiles/index.csv", &index(surfaces))?;
+        for (k, profile) in profiles.iter().enumerate() {
+            store.write(format!("profiles/{k}.csv"), &points(profile))?;
         }
     }
     if !outcome.fields.is_empty() {
-        store.write("fields/index.csv", &index(&outcome.fields))?;
+        let surfaces = outcome.fields.iter();
+        let surfaces = surfaces.map(|record| (record.row, profile_lines::grid(record)));
+        store.write("fields/index.csv", &index(surfaces))?;
         for (k, record) in outcome.fields.iter().enumerate() {
             write_fields(store, k, record)?;
         }
@@ -51,56 +78,116 @@ pub fn write(
     Ok(())
 }
 
-/// `index.csv`: which time and state each file of a folder belongs to.
-fn index(records: &[SurfaceRecord]) -> Vec<u8> {
-    let grid = |record: &SurfaceRecord| match &record.surface {
-        Surface::Radial(_) => None,
-        Surface::Cells(cells) => Some(cells.grid),
-    };
-    let rows = records.iter().map(|record| (record.row, grid(record)));
-    table::of_rows(
-        rows.enumerate(),
-        &[
-            ("index", |(k, _)| (*k).into()),
-            ("time_s", |(_, (row, _))| row.time_s.into()),
-            ("load_n", |(_, (row, _))| row.load_n.into()),
-            ("approach_m", |(_, (row, _))| row.approach_m.into()),
-            ("contact_radius_m", |(_, (row, _))| {
-                row.contact_radius_m.into()
-            }),
-            ("cells_x", |(_, (_, grid))| grid.map(|g| g.cells_x()).into()),
-            ("cells_y", |(_, (_, grid))| grid.map(|g| g.cells_y()).into()),
-            ("spacing_x_m", |(_, (_, grid))| {
-                grid.map(|g| g.spacing_x_m()).into()
-            }),
-            ("spacing_y_m", |(_, (_, grid))| {
-                grid.map(|g| g.spacing_y_m()).into()
-            }),
-        ],
-    )
+/// A row of `index.csv`: which time and state each file of a folder belongs to.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Indexed {
+    pub(super) index: usize,
+    pub(super) row: HistoryRow,
+    /// Cells along x and y and their sides (m), of a surface on a grid.
+    pub(super) cells: [Option<f64>; 2],
+    pub(super) spacing_m: [Option<f64>; 2],
 }
 
-/// `profiles/<k>.csv`.
-fn profile(record: &SurfaceRecord) -> Vec<u8> {
-    let is_radial = matches!(record.surface, Surface::Radial(_));
-    let places: &[&str] = match is_radial {
-        true => &["radius_m"],
-        false => &["line", "position_m"],
+fn count(number: Option<f64>) -> Cell {
+    number.map(|number| number as u64).into()
+}
+
+type OfIndex = Column<Indexed>;
+
+/// The columns of `index.csv`.
+#[rustfmt::skip]
+pub(super) static INDEX: &[OfIndex] = &[
+    OfIndex::new("index", |r| r.index.into(), "the number in the names of its files").read_into(|r| Count(&mut r.index)),
+    OfIndex::new("time_s", |r| r.row.time_s.into(), "time").read_into(|r| Number(&mut r.row.time_s)),
+    OfIndex::new("load_n", |r| r.row.load_n.into(), "load W").read_into(|r| Number(&mut r.row.load_n)),
+    OfIndex::new("approach_m", |r| r.row.approach_m.into(), "approach δ").read_into(|r| Optional(&mut r.row.approach_m)),
+    OfIndex::new("contact_radius_m", |r| r.row.contact_radius_m.into(), "contact radius a").read_into(|r| Number(&mut r.row.contact_radius_m)),
+    OfIndex::new("cells_x", |r| count(r.cells[0]), "cells along x; empty along a radius").read_into(|r| Optional(&mut r.cells[0])),
+    OfIndex::new("cells_y", |r| count(r.cells[1]), "cells along y").read_into(|r| Optional(&mut r.cells[1])),
+    OfIndex::new("spacing_x_m", |r| r.spacing_m[0].into(), "side of a cell along x").read_into(|r| Optional(&mut r.spacing_m[0])),
+    OfIndex::new("spacing_y_m", |r| r.spacing_m[1].into(), "side along y").read_into(|r| Optional(&mut r.spacing_m[1])),
+];
+
+fn index(surfaces: impl Iterator<Item = (HistoryRow, Option<Grid>)>) -> Vec<u8> {
+    let row = |(index, (row, grid)): (usize, (HistoryRow, Option<Grid>))| Indexed {
+        index,
+        row,
+        cells: [Grid::cells_x, Grid::cells_y].map(|of| grid.map(|grid| of(&grid) as f64)),
+        spacing_m: [Grid::spacing_x_m, Grid::spacing_y_m].map(|of| grid.map(|grid| of(&grid))),
     };
-    let columns = [places, &["pressure_pa", "displacement_m", "gap_m"]].concat();
-    let rows = lines(record).into_iter().flat_map(|(line, points)| {
-        points.into_iter().map(move |point| {
-            let values = cells![
-                point.position_m,
-                point.pressure_pa,
-                point.displacement_m,
-                point.gap_m,
-            ];
-            let line = (!is_radial).then(|| Cell::from(line));
-            line.into_iter().chain(values).collect::<Vec<_>>()
-        })
+    let rows: Vec<Indexed> = surfaces.enumerate().map(row).collect();
+    quantities::table(INDEX, &rows)
+}
+
+/// A row of `profiles/<k>.csv`.
+#[derive(Debug, Clone, Default)]
+pub(super) struct OnLine {
+    pub(super) line: String,
+    pub(super) point: ProfilePoint,
+}
+
+const fn on_line(
+    name: &'static str,
+    value: fn(&OnLine) -> Cell,
+    place: PlaceIn<OnLine>,
+) -> Column<OnLine> {
+    Column::new(name, value, "").read_into(place)
+}
+
+const PRESSURE: Column<OnLine> = on_line(
+    "pressure_pa",
+    |r| r.point.pressure_pa.into(),
+    |r| Optional(&mut r.point.pressure_pa),
+);
+const DISPLACEMENT: Column<OnLine> = on_line(
+    "displacement_m",
+    |r| r.point.displacement_m.into(),
+    |r| Number(&mut r.point.displacement_m),
+);
+const GAP: Column<OnLine> = on_line(
+    "gap_m",
+    |r| r.point.gap_m.into(),
+    |r| Optional(&mut r.point.gap_m),
+);
+
+/// The columns of `profiles/<k>.csv` along a radius.
+pub(super) static ALONG_RADIUS: &[Column<OnLine>] = &[
+    on_line(
+        "radius_m",
+        |r| r.point.position_m.into(),
+        |r| Number(&mut r.point.position_m),
+    ),
+    PRESSURE,
+    DISPLACEMENT,
+    GAP,
+];
+/// The same along the axes of a grid.
+pub(super) static ALONG_AXES: &[Column<OnLine>] = &[
+    on_line("line", |r| r.line.as_str().into(), |r| Text(&mut r.line)),
+    on_line(
+        "position_m",
+        |r| r.point.position_m.into(),
+        |r| Number(&mut r.point.position_m),
+    ),
+    PRESSURE,
+    DISPLACEMENT,
+    GAP,
+];
+
+/// `profiles/<k>.csv`.
+fn points(profile: &Profile) -> Vec<u8> {
+    let columns = match profile.grid {
+        None => ALONG_RADIUS,
+        Some(_) => ALONG_AXES,
+    };
+    let rows = profile.lines.iter().flat_map(|(line, points)| {
+        let row = |point: &ProfilePoint| OnLine {
+            line: line.clone(),
+            point: *point,
+        };
+        points.iter().map(row)
     });
-    csv(&columns, rows)
+    quantities::table(columns, &rows.collect::<Vec<_>>())
 }
 
 /// `fields/<k>-<quantity>.npy` and `fields/<k>.vti`. The gap is infinite where there is no indenter, and left out where the

@@ -32,7 +32,7 @@ const MODULES: [&str; 21] = [
 const SWEEP: [&str; 6] = ["plan", "record", "store", "case", "share", "search"];
 
 /// Parts of the module `report` from top to bottom.
-const REPORT: [&str; 35] = [
+const REPORT: [&str; 38] = [
     "number",
     "words",
     "text",
@@ -43,6 +43,7 @@ const REPORT: [&str; 35] = [
     "profile_lines",
     "table",
     "quantities",
+    "table_reader",
     "fit",
     "dynamic",
     "measured",
@@ -58,9 +59,11 @@ const REPORT: [&str; 35] = [
     "figure",
     "material",
     "page",
+    "kept_figures",
     "summary",
     "sweep_tables",
     "scenario_tables",
+    "scenario_folder",
     "machine",
     "terminal",
     "terminal_simulation",
@@ -71,7 +74,7 @@ const REPORT: [&str; 35] = [
 ];
 
 /// Parts of the command line from top to bottom.
-const CLI: [&str; 26] = [
+const CLI: [&str; 27] = [
     "interruption",
     "failure",
     "output",
@@ -85,7 +88,8 @@ const CLI: [&str; 26] = [
     "sweep",
     "simulate",
     "analyse",
-    "stored",
+    "merge",
+    "report",
     "compare",
     "identify",
     "reproduce",

@@ -501,28 +501,18 @@ fn an_export_is_written_to_what_is_there() {
 }
 
 #[test]
-fn report_names_the_command_that_makes_the_figures_of_a_folder_that_it_cannot_draw() {
+fn a_folder_of_another_command_is_told_where_a_sweep_is_needed() {
     let place = inputs();
-    let figures = "--set figures.column=one";
-    let history = format!("simulate out-1/resolved.toml --out out-1 {figures}");
-    for (k, holds, again) in [
-        (1, "a scenario", history.as_str()),
-        (5, "an identification", "identify FILE --out out-5"),
-        (
-            6,
-            "the figures of a material",
-            "material show MATERIAL --out out-6",
-        ),
-        (7, "a material fit", "material fit TABLE --out out-7"),
-        (8, "a comparison", "compare BASELINE NEW --out out-8"),
+    for (k, holds) in [
+        (1, "a scenario"),
+        (5, "an identification"),
+        (6, "the figures of a material"),
+        (7, "a material fit"),
+        (8, "a comparison"),
     ] {
         let out = format!("out-{k}");
         place.ends(&into(COMMANDS[k], &out, ""), 0);
         let before = files(&place.path(&out));
-        let said = place.ends(&format!("report {out} {figures}"), 2);
-        assert!(said.contains(&format!("{out} holds {holds}")), "{said}");
-        assert!(said.contains(&format!("contact-dma {again}`")), "{said}");
-        assert!(!said.contains("missing"), "{said}");
         for other in [
             format!("compare {out} swept"),
             format!("merge {out} --out whole"),
@@ -530,15 +520,8 @@ fn report_names_the_command_that_makes_the_figures_of_a_folder_that_it_cannot_dr
             let said = place.ends(&other, 2);
             assert!(said.contains(&format!("{out} holds {holds}")), "{said}");
         }
-        assert_eq!(files(&place.path(&out)), before, "{again}");
+        assert_eq!(files(&place.path(&out)), before, "{holds}");
     }
-    // What is named for a history does what was asked.
-    place.done(&history);
-    let picture = place.text("out-1/history.svg");
-    assert!(picture.contains("85mm"), "{}", &picture[..300]);
-    // An analysis is drawn.
-    place.ends(&into(COMMANDS[4], "measured", ""), 0);
-    place.ends("report measured", 0);
 }
 
 #[test]

@@ -40,6 +40,7 @@ mod names_and_figures;
 mod page;
 mod paths;
 mod periodic;
+mod redrawn;
 mod refined_sweep;
 mod refused;
 mod renew;

@@ -15,7 +15,7 @@ use crate::simulation::errors::Plan;
 use crate::simulation::scenario::ScenarioPlan;
 
 /// One cycle of one sine segment.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct HistoryCycle {
     /// The segment of the drive, and the cycle within it, both counted from 1.
     pub segment: usize,
@@ -56,7 +56,7 @@ const SAMPLES: usize = 200;
 const FEWEST_ROWS: usize = 12;
 
 /// Every whole cycle of every sine segment, as far as the rows go.
-pub(super) fn in_rows(plan: &ScenarioPlan, rows: &[HistoryRow]) -> Vec<HistoryCycle> {
+pub fn in_rows(plan: &ScenarioPlan, rows: &[HistoryRow]) -> Vec<HistoryCycle> {
     let segments = plan.drive.segments().iter().enumerate();
     segments
         .flat_map(|(index, segment)| match segment {

@@ -60,7 +60,7 @@ struct Level {
 }
 
 /// One row of the history.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct HistoryRow {
     pub time_s: f64,
     pub load_n: f64,

@@ -1,10 +1,12 @@
 //! The scale of a quantity that series are coloured by, as points of a master curve are by their temperature.
 
+use serde::{Deserialize, Serialize};
+
 use super::Color;
 use super::color_map::{LEVELS, level};
 
 /// Values from low to high, dark to light, and what they are.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ColorScale {
     /// Quantity and unit, beside the bar.
     pub label: String,

@@ -7,6 +7,8 @@
 
 use std::borrow::Cow;
 
+use serde::{Deserialize, Serialize};
+
 use super::canvas::Canvas;
 use super::color_bar::Bar;
 use super::color_map::{LEVELS, color, level};
@@ -21,7 +23,7 @@ use super::{Chart, ChartError, Color, Scale};
 use crate::report::number::range;
 
 /// The shape of a map.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum MapShape {
     /// Lengths along y are to the scale of those along x.
     #[default]
@@ -33,7 +35,7 @@ pub enum MapShape {
 }
 
 /// Values on a grid of cells that are equal on the scales of the axes, whose given ranges are those of the grid.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct HeatMap {
     pub columns: usize,
     pub rows: usize,

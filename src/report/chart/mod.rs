@@ -22,6 +22,8 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 mod canvas;
 mod check;
 mod color_bar;
@@ -44,6 +46,7 @@ mod pdf;
 mod place;
 mod render;
 mod scale;
+mod shared;
 mod stroke;
 mod text;
 mod ticks;
@@ -57,13 +60,17 @@ pub use heat_map::{HeatMap, MapShape};
 pub use palette::Color;
 
 /// A chart: what is drawn against which axes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Chart {
     /// Drawn above the frame; a figure in a paper has its title in the caption instead.
     pub title: Option<String>,
     pub x: Axis,
     pub y: Axis,
     /// Drawn below everything else, in place of a grid.
+    #[serde(
+        serialize_with = "shared::serialize",
+        deserialize_with = "shared::deserialize"
+    )]
     pub map: Option<Arc<HeatMap>>,
     /// What the colours of the series stand for, drawn as a bar right of the frame; a map has a bar of its own.
     pub color_scale: Option<ColorScale>,
@@ -164,7 +171,7 @@ impl Chart {
 }
 
 /// One axis: quantity and unit in words, how values become lengths, and optionally the range shown.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
     pub label: String,
     pub scale: Scale,
@@ -196,7 +203,7 @@ impl Axis {
 }
 
 /// How a value becomes a length along an axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Scale {
     #[default]
     Linear,
@@ -223,7 +230,7 @@ impl Scale {
 }
 
 /// One curve or one set of points.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Series {
     /// The entry in the legend; a series without a label has none.
     pub label: Option<String>,
@@ -336,7 +343,7 @@ impl Series {
 }
 
 /// How a line is stroked. The four stay apart in grey.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum LineStyle {
     Solid,
     Dashed,
@@ -352,7 +359,7 @@ impl LineStyle {
 }
 
 /// What stands on a data point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Marker {
     Disc,
     Ring,
@@ -389,7 +396,7 @@ impl Marker {
 }
 
 /// Something pointed out in the chart. Its label is placed where it covers neither curves nor the legend.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Mark {
     pub place: MarkPlace,
     /// May be empty.
@@ -398,7 +405,7 @@ pub struct Mark {
 }
 
 /// Where a [`Mark`] is.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum MarkPlace {
     /// A ring about a point, such as a peak, with a thin leader line to its label.
     Point { x: f64, y: f64 },
@@ -449,7 +456,7 @@ impl Mark {
 }
 
 /// Where the legend goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum LegendPlace {
     /// A place inside the frame where it covers no data, otherwise outside.
     Auto,
@@ -464,7 +471,7 @@ pub enum LegendPlace {
 }
 
 /// The size of the picture at scale 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Size {
     pub width_px: u32,
     pub height_px: u32,

@@ -1,7 +1,9 @@
 //! Colours that stay apart for colour-blind readers and in a grey print.
 
+use serde::{Deserialize, Serialize};
+
 /// A colour: a place in the palette, a step of an ordered ramp, or an explicit value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Color {
     /// For families without an order. Counts on from the start after seven.
     Palette(usize),

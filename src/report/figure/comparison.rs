@@ -1,11 +1,9 @@
 //! The loss of two results over frequency, and below it by how much they differ.
 
-use super::Picture;
-use super::press::Press;
 use super::units::Units;
+use super::{Drawn, Figure, Picture};
 use crate::quantity::FrequencyUnit;
-use crate::report::ReportError;
-use crate::report::caption::{Caption, Setting};
+use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, LineStyle, Marker, Series};
 use crate::report::comparison::{Comparison, CurvePoint};
 use crate::report::number::{at_frequency, largest, range, scientific};
@@ -15,22 +13,18 @@ const WIDTH_PX: u32 = 800;
 const CURVES_PX: u32 = 450;
 const DIFFERENCE_PX: u32 = 300;
 
-/// Writes the figure and the data behind it. Returns why where it cannot be drawn.
-///
-/// # Errors
-/// [`ReportError`] naming the figure.
-pub fn write(comparison: &Comparison, press: &Press<'_>) -> Result<Option<String>, ReportError> {
-    (press.write)("comparison.csv", &comparison.table())?;
+/// The figure; its data are the table of the comparison.
+pub fn figure(comparison: &Comparison) -> Drawn {
     let (curve, unit) = (&comparison.curve, comparison.unit);
     if curve.iter().all(|p| p.relative_difference().is_none()) {
-        return Ok(Some(
-            "no figure: no case has a loss in both results".to_owned(),
-        ));
+        return Err("no figure: no case has a loss in both results");
     }
-    let picture = Picture(vec![losses(curve, unit), differences(curve, unit)]);
-    let caption = caption(comparison).text(&Setting::default());
-    press.picture(NAME, NAME, &picture, &caption)?;
-    Ok(None)
+    Ok(Figure {
+        name: NAME,
+        picture: Picture(vec![losses(curve, unit), differences(curve, unit)]),
+        caption: caption(comparison),
+        data: Vec::new(),
+    })
 }
 
 fn caption(comparison: &Comparison) -> Caption {

@@ -31,6 +31,8 @@ pub mod relaxation;
 pub mod units;
 pub mod van_gurp_palmen;
 
+use serde::{Deserialize, Serialize};
+
 use super::caption::Caption;
 use super::chart::{self, Axis, Chart, ChartError, Drawing, Scale};
 
@@ -44,7 +46,7 @@ pub struct Figure {
 }
 
 /// What a figure shows: a chart, or charts one above another.
-#[derive(Clone)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Picture(pub Vec<Chart>);
 
 impl From<Chart> for Picture {

@@ -23,6 +23,14 @@ pub type WriteFile<'a> = dyn Fn(&str, &[u8]) -> Result<(), StoreError> + Sync + 
 pub struct Files(Mutex<BTreeMap<String, Vec<u8>>>);
 
 impl Files {
+    /// These, by their names.
+    pub fn of<N: Into<String>>(files: impl IntoIterator<Item = (N, Vec<u8>)>) -> Self {
+        let files = files.into_iter();
+        Self(Mutex::new(
+            files.map(|(name, bytes)| (name.into(), bytes)).collect(),
+        ))
+    }
+
     /// Adds a file.
     pub fn insert(&self, name: impl Into<String>, bytes: impl Into<Vec<u8>>) {
         let mut files = self.0.lock().unwrap_or_else(PoisonError::into_inner);

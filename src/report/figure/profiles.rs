@@ -8,10 +8,9 @@ use crate::quantity::Dimension;
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Color, Series};
 use crate::report::number::{largest, plain, range, scientific};
-use crate::report::profile_lines::{ProfilePoint, lines};
+use crate::report::profile_lines::{Profile, ProfilePoint};
 use crate::report::table::{cells, csv};
 use crate::report::words::listed;
-use crate::simulation::SurfaceRecord;
 
 const NAME: &str = "profiles";
 /// Curves in one figure; more cannot be told apart.
@@ -24,8 +23,8 @@ const LOWER_PX: u32 = 380;
 type Curve = (f64, Vec<ProfilePoint>);
 
 /// The figure, where any profile was asked for, and what is not drawn of them.
-pub fn figure(records: &[SurfaceRecord], units: &Units) -> (Option<Figure>, Option<String>) {
-    let Some((line, _)) = records.first().and_then(|r| lines(r).into_iter().next()) else {
+pub fn figure(records: &[Profile], units: &Units) -> (Option<Figure>, Option<String>) {
+    let Some((line, _)) = records.first().and_then(|r| r.lines.first()) else {
         return (None, None);
     };
     let curves = chosen(records);
@@ -69,8 +68,8 @@ fn caption(line: &str, curves: &[Curve]) -> Caption {
 }
 
 /// At most [`CURVES`] profiles in the order of their times, evenly spread, both ends among them.
-fn chosen(records: &[SurfaceRecord]) -> Vec<Curve> {
-    let mut ordered: Vec<&SurfaceRecord> = records.iter().collect();
+fn chosen(records: &[Profile]) -> Vec<Curve> {
+    let mut ordered: Vec<&Profile> = records.iter().collect();
     ordered.sort_by(|a, b| a.row.time_s.total_cmp(&b.row.time_s));
     let count = ordered.len();
     let shown = count.min(CURVES);
@@ -78,8 +77,8 @@ fn chosen(records: &[SurfaceRecord]) -> Vec<Curve> {
         .filter_map(|k| {
             let place = (k * (count - 1)).checked_div(shown - 1).unwrap_or(0);
             let record = ordered.get(place)?;
-            let (_, points) = lines(record).into_iter().next()?;
-            Some((record.row.time_s, points))
+            let (_, points) = record.lines.first()?;
+            Some((record.row.time_s, points.clone()))
         })
         .collect()
 }

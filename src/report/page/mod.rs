@@ -25,6 +25,7 @@ pub use pictures::Pictures;
 pub use thinned::shown;
 
 use super::ReportError;
+use super::profile_lines::Profile;
 use crate::simulation::SimulationOutcome;
 use crate::simulation::scenario::{self, ScenarioPlan};
 use crate::sweep::plan::SweepPlan;
@@ -75,7 +76,7 @@ pub fn sweep(
 /// [`ReportError`] naming the part that could not be made.
 pub fn simulation(
     plan: &ScenarioPlan,
-    outcome: &SimulationOutcome,
+    (outcome, profiles): (&SimulationOutcome, &[Profile]),
     pictures: &Pictures,
     hash: &str,
 ) -> Result<String, ReportError> {
@@ -92,7 +93,7 @@ pub fn simulation(
         ),
         script: &[PLOT, HEAT, MODULI, SIMULATION_SCRIPT],
     };
-    frame.page(&simulation::SimulationData::new(plan, outcome))
+    frame.page(&simulation::SimulationData::new(plan, outcome, profiles))
 }
 
 /// A section under its heading, of this id.

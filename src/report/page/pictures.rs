@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, PoisonError};
 
-use maud::{Markup, PreEscaped};
+use maud::{Markup, PreEscaped, html};
 
 use crate::report::chart::{ChartError, Drawing};
 
@@ -23,6 +23,29 @@ impl Pictures {
             sweep_hash: Some(hash.to_owned()),
             ..Self::default()
         }
+    }
+
+    /// For figures of these names, a mark in the place of each picture, which [`Pictures::placed`] replaces.
+    pub(in crate::report) fn marks<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
+        let names = names.into_iter();
+        Self {
+            by_name: Mutex::new(names.map(|name| (name.to_owned(), mark(name))).collect()),
+            ..Self::default()
+        }
+    }
+
+    /// A page with pictures in the places of their marks; why there is none stands in the place of one that could not be drawn.
+    pub(in crate::report) fn placed(&self, page: &str, names: &[&str]) -> String {
+        let reasons = self
+            .not_drawn
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        let picture = |name: &str| {
+            let reason = || html! { p { (reasons.get(name).map_or("", String::as_str)) } };
+            self.inline(name).unwrap_or_else(reason).into_string()
+        };
+        let placed = |page: String, name: &&str| page.replace(&mark(name), &picture(name));
+        names.iter().fold(page.to_owned(), placed)
     }
 
     pub(in crate::report) fn sweep_hash(&self) -> Option<&str> {
@@ -70,4 +93,9 @@ impl Pictures {
         let pictures = self.by_name.lock().unwrap_or_else(PoisonError::into_inner);
         pictures.get(name).cloned().map(PreEscaped)
     }
+}
+
+/// The place of a picture: a comment, as which nothing that a page says can stand there, since it is escaped.
+fn mark(name: &str) -> String {
+    format!("<!-- picture {name} -->")
 }

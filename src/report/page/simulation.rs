@@ -13,7 +13,7 @@ use crate::contact::surface::{CellSurface, Surface};
 use crate::quantity::Dimension;
 use crate::report::caption;
 use crate::report::number::{plain, with_error};
-use crate::report::profile_lines::lines;
+use crate::report::profile_lines;
 use crate::report::quantities::{CYCLES, Column};
 use crate::report::words;
 use crate::simulation::body_material::BodyMaterial;
@@ -35,7 +35,7 @@ pub(super) struct SimulationData {
     kind: &'static str,
     history: History,
     /// What profiles run along: r or x.
-    line: &'static str,
+    line: String,
     profiles: Vec<Profile>,
     fields: Vec<Field>,
     material: Option<MaterialData>,
@@ -70,17 +70,19 @@ struct Field {
 
 impl SimulationData {
     /// The data of a history, as far as it came.
-    pub(super) fn new(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Self {
-        let first = outcome.profiles.first();
+    pub(super) fn new(
+        plan: &ScenarioPlan,
+        outcome: &SimulationOutcome,
+        profiles: &[profile_lines::Profile],
+    ) -> Self {
+        let first = profiles.first().and_then(|profile| profile.lines.first());
         let fields = &outcome.fields;
         let cells = CELLS[usize::from(fields.len() > FEW)];
         Self {
             kind: "simulation",
             history: history(&outcome.rows),
-            line: first
-                .and_then(|record| Some(lines(record).first()?.0))
-                .unwrap_or("r"),
-            profiles: outcome.profiles.iter().filter_map(profile).collect(),
+            line: first.map_or("r", |(line, _)| line).to_owned(),
+            profiles: profiles.iter().filter_map(profile).collect(),
             fields: fields.iter().filter_map(|f| field(f, cells)).collect(),
             material: plan.contact.material.series().map(MaterialData::of),
         }
@@ -112,8 +114,8 @@ fn history(rows: &[HistoryRow]) -> History {
     }
 }
 
-fn profile(record: &SurfaceRecord) -> Option<Profile> {
-    let (_, points) = lines(record).into_iter().next()?;
+fn profile(record: &profile_lines::Profile) -> Option<Profile> {
+    let (_, points) = record.lines.first()?;
     let places = spread(points.len(), POINTS);
     let kept = || places.iter().filter_map(|&i| points.get(i));
     Some(Profile {

@@ -7,7 +7,7 @@ use std::path::{Component, Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::folder_lock::LOCK;
+use super::folder_lock::{LOCK, LOCKS};
 use super::records::{self, Records};
 use super::{RESOLVED, StoreError, files, log};
 use crate::sweep::plan::resolved::hash;
@@ -155,6 +155,16 @@ pub(super) fn look(folder: &Path, resolved: Option<&str>) -> Result<Listed, Stor
 /// [`StoreError::Read`] with the path.
 pub fn kind_of(folder: &Path) -> Result<Option<Kind>, StoreError> {
     Ok(look(folder, None)?.kind)
+}
+
+/// The files that the program has written into a folder and that are there.
+///
+/// # Errors
+/// As [`kind_of`].
+pub fn files_of(folder: &Path) -> Result<BTreeSet<String>, StoreError> {
+    let mut files = look(folder, None)?.files;
+    files.retain(|name| !LOCKS.contains(&&**name) && folder.join(name).is_file());
+    Ok(files)
 }
 
 /// Files that name the program: `run.json`, those of shards, and the summary.

@@ -15,7 +15,7 @@ use serde::Serialize;
 
 use super::folder_lock::{FolderLock, LOCK, LOCKS, Others};
 use super::listing::{KIND_MARK, Listed, PROGRAM, files_in, journal_of, look, names_in};
-pub use super::listing::{Kind, RUN, kind_of};
+pub use super::listing::{Kind, RUN, files_of, kind_of};
 use super::{RESOLVED, StoreError, TEMPORARY, files, provenance};
 
 /// What a command is to do in a folder.
