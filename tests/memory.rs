@@ -159,7 +159,7 @@ fn large_pictures_are_drawn_one_after_another_in_the_memory_predicted() {
 
     let _alone = alone();
     let plan = FigurePlan {
-        formats: vec![Format::Png],
+        formats: vec![Format::Png].into(),
         dpi: Some(600),
         ..FigurePlan::default()
     };

@@ -19,6 +19,7 @@ pub mod block;
 mod error;
 mod frequency;
 pub mod key;
+pub mod rows;
 pub mod setting;
 mod units;
 

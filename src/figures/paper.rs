@@ -13,9 +13,6 @@ pub enum Form {
     PngOfScale(f32),
 }
 
-/// Widths (m) of a figure in one and in two columns of a journal, as sweep files name them.
-pub const COLUMNS: [(&str, f64); 2] = [("one", 0.085), ("two", 0.180)];
-
 /// Text size (pt) where a size is asked for but none of the text.
 const FONT_SIZE_PT: f64 = 8.0;
 /// Resolution (pixels per inch) of a PNG whose size on paper is asked for.
@@ -106,7 +103,7 @@ mod tests {
         FigurePlan {
             width_m: Some(0.085),
             font_size_pt: Some(7.0),
-            formats: vec![Format::Png, Format::Pdf],
+            formats: vec![Format::Png, Format::Pdf].into(),
             dpi: Some(600),
             ..FigurePlan::default()
         }

@@ -10,25 +10,26 @@ use serde_json::{Map, Value as Json, json};
 
 use super::diagnostic::{Diagnostic, Diagnostics, Problems};
 use super::document::Located;
-use super::document::kind::{Array, Describe, Kind, Number, Spot, Text, list};
-use super::document::reader::{in_backticks, join};
-use super::document::row::{AnyRow, Rows};
+use super::document::kind::{Asked, Describe, Spot};
+use super::document::reader::{TableReader, in_backticks, join};
+use super::document::row;
 use super::document::similar::similar;
 use super::document::tree::{Entry, Node, Table, Value};
+use super::keys::drive::RANGE;
 use super::keys::material::{LIBRARY, NAME};
-use super::points::{MOST_POINTS, Points};
+use super::points::{self, MOST_POINTS};
 use crate::quantity::Dimension;
+use crate::quantity::block::{Field, Word};
+use crate::quantity::key::{AxesOf, Entries, Key, Kind, Number};
+use crate::quantity::rows::Rows;
 use crate::sweep::plan::{Block, Varied};
 pub(in crate::input) use swept::{Swept, has_list, unquote};
 use swept::{WHOLE, beside_numbers};
 
 /// One key of a block that has a number, with the values that it takes.
-#[derive(Clone, Copy)]
 pub(crate) struct AxisOf {
     block: Block,
-    rows: &'static Rows,
-    /// The keys of a block of a list, where whole blocks may vary.
-    listed: Option<&'static Rows>,
+    of: AxesOf,
     /// The dimension of what the drive controls.
     controlled: Dimension,
     /// Whether the values are taken in their order, repeats and all.
@@ -42,7 +43,7 @@ const NAME_LENGTH: usize = 60;
 struct AxisNumber {
     /// From the block on, items of lists without their places: `relaxation.branches[].time`.
     key: String,
-    row: &'static dyn AnyRow,
+    row: &'static Key,
     scalar: Number,
 }
 
@@ -55,12 +56,13 @@ fn numbers(rows: &'static Rows, controlled: Dimension) -> Vec<AxisNumber> {
 
 fn add_numbers(rows: &'static Rows, path: &str, controlled: Dimension, to: &mut Vec<AxisNumber>) {
     for row in rows.all() {
-        let key = join(path, row.name());
-        match (row.kind().number(controlled), row.kind().rows()) {
+        let key = join(path, row.name);
+        match (row.kind.number(controlled), row.kind.rows()) {
             (Some(_), _) if to.iter().any(|number| number.key == key) => {}
             (Some(scalar), _) => to.push(AxisNumber { key, row, scalar }),
             (None, Some(rows)) if may_vary_within(rows) => {
-                let items = if row.kind().is_list() { "[]" } else { "" };
+                let is_list = matches!(row.kind, Kind::Tables(..));
+                let items = if is_list { "[]" } else { "" };
                 add_numbers(rows, &format!("{key}{items}"), controlled, to);
             }
             (None, _) => {}
@@ -70,7 +72,7 @@ fn add_numbers(rows: &'static Rows, path: &str, controlled: Dimension, to: &mut 
 
 /// Whether a number of a table within a block may vary: not where data are read from a file, which are what they are.
 fn may_vary_within(rows: &'static Rows) -> bool {
-    let names_a_file = |row: &&dyn AnyRow| row.name() == "file" || row.name() == "files";
+    let names_a_file = |key: &&Key| key.name == "file" || key.name == "files";
     !rows.all().iter().any(names_a_file)
 }
 
@@ -94,26 +96,40 @@ fn without_places(key: &str) -> String {
     general
 }
 
+/// What an axis of a sweep takes under a key of `[sweep]`; `None` where a problem was reported. It is known by then what the drive
+/// controls, and whether the values go with those of other axes one by one.
+pub(super) fn read(
+    table: &mut TableReader<'_>,
+    key: &Key,
+    of: (Dimension, bool),
+) -> Option<Vec<Swept>> {
+    let (Some(node), Kind::Axes(axes)) = (table.node(key), &key.kind) else {
+        return Some(Vec::new());
+    };
+    let (path, kind) = (join("sweep", key.name), &key.kind);
+    let spot = &Spot {
+        path: &path,
+        key: Some(key.name),
+    };
+    let axis = AxisOf::new(axes).of(of.0, of.1);
+    let swept = axis.convert(&Asked { kind, node, spot });
+    swept.map_err(|found| table.problems().extend(found)).ok()
+}
+
 impl AxisOf {
     /// Numbers of a block.
-    pub(crate) const fn new(block: Block, rows: &'static Rows) -> Self {
+    pub(crate) fn new(of: &AxesOf) -> Self {
+        let block = Block::ALL.iter().find(|(name, _)| *name == of.block);
         Self {
-            block,
-            rows,
-            listed: None,
+            block: block.map_or(Block::Material, |(_, block)| *block),
+            of: *of,
             controlled: Dimension::Force,
             in_order: false,
         }
     }
 
-    /// The same, or whole blocks with these keys.
-    pub(crate) const fn or_blocks(self, rows: &'static Rows) -> Self {
-        let listed = Some(rows);
-        Self { listed, ..self }
-    }
-
     /// The same once it is known what the drive controls, and whether the values go with those of other axes one by one.
-    pub(super) fn of(self, controlled: Dimension, in_order: bool) -> Self {
+    fn of(self, controlled: Dimension, in_order: bool) -> Self {
         Self {
             controlled,
             in_order,
@@ -146,7 +162,7 @@ impl AxisOf {
     }
 
     fn nested(&self) -> impl Iterator<Item = AxisNumber> {
-        let numbers = numbers(self.rows, self.controlled).into_iter();
+        let numbers = numbers(self.of.rows, self.controlled).into_iter();
         numbers.filter(|number| number.key.contains('.'))
     }
 
@@ -159,16 +175,16 @@ impl AxisOf {
     }
 
     fn names(&self) -> Vec<String> {
-        let numbers = numbers(self.rows, self.controlled).into_iter();
+        let numbers = numbers(self.of.rows, self.controlled).into_iter();
         numbers.map(|number| number.key).collect()
     }
 
     /// What a JSON Schema says of each key, by the name that it is referred to; whatever the drive controls.
     pub(super) fn definitions(&self) -> Map<String, Json> {
         let [load, approach] = [Dimension::Force, Dimension::Length].map(|controlled| {
-            let numbers = numbers(self.rows, controlled).into_iter();
+            let numbers = numbers(self.of.rows, controlled).into_iter();
             let own = numbers.filter(|number| !number.key.contains('.'));
-            own.map(|number| (number.key, number.row, Points(number.scalar).schema()))
+            own.map(|number| (number.key, number.row, as_axis(&number.scalar)))
         });
         let both = load.zip(approach).map(|((key, row, one), (_, _, other))| {
             let mut schema = match one == other {
@@ -180,7 +196,7 @@ impl AxisOf {
         });
         let own: Map<String, Json> = both.collect();
         let nested = self.nested();
-        let nested = nested.map(|n| (of_kind(&n.scalar), Points(n.scalar).schema()));
+        let nested = nested.map(|n| (of_kind(&n.scalar), as_axis(&n.scalar)));
         own.into_iter().chain(nested).collect()
     }
 
@@ -197,15 +213,12 @@ impl AxisOf {
     }
 }
 
-impl Describe for AxisOf {
-    fn expected(&self) -> String {
-        let block = self.block.name();
-        match self.listed {
-            Some(_) => format!("a table with keys of `[{block}]`, or a list of such blocks"),
-            None => format!("a table with keys of `[{block}]`"),
-        }
-    }
+/// What a JSON Schema says of such a number as an axis.
+fn as_axis(scalar: &Number) -> Json {
+    points::schema(scalar, &RANGE)
+}
 
+impl Describe for AxisOf {
     fn example(&self) -> String {
         let first = self.names().into_iter().next().unwrap_or_default();
         format!("{{ {first} = [...] }}")
@@ -219,40 +232,27 @@ impl Describe for AxisOf {
             "minProperties": 1,
             "additionalProperties": false,
         });
-        let listed =
-            |rows: &'static Rows| json!({ "type": "array", "items": rows.schema(), "minItems": 1 });
-        match self.listed {
+        let listed = |rows: &'static Rows| json!({ "type": "array", "items": row::schema(rows), "minItems": 1 });
+        match self.of.listed {
             Some(rows) => json!({ "anyOf": [numbers, listed(rows)] }),
             None => numbers,
         }
     }
-
-    fn axes(&self) -> Option<&AxisOf> {
-        Some(self)
-    }
 }
 
-impl Kind for AxisOf {
-    type Value = Vec<Swept>;
-
-    fn written(&self, all: &Vec<Swept>) -> Json {
-        let entries = all.iter();
-        let entries =
-            entries.map(|swept| (swept.varied.key.to_string(), json!(swept.values.value)));
-        Json::Object(entries.collect())
-    }
-
-    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<Vec<Swept>, Diagnostics> {
+impl AxisOf {
+    fn convert(&self, asked: &Asked<'_>) -> Result<Vec<Swept>, Diagnostics> {
+        let Asked { node, spot, .. } = *asked;
         let listed;
         let table = match &node.value {
             Value::Table(table) => table,
-            Value::Array(_) if self.listed.is_some() => {
+            Value::Array(_) if self.of.listed.is_some() => {
                 listed = beside_numbers(node);
                 &listed
             }
             _ => {
                 let help = format!("write `{}.KEY = [...]`", spot.key.unwrap_or_default());
-                return Err(self.wrong_type(node, spot).help(help).into());
+                return Err(asked.wrong_type().help(help).into());
             }
         };
         if table.entries.is_empty() {
@@ -260,7 +260,7 @@ impl Kind for AxisOf {
             let help = format!("write the key of [{}] that varies", self.block.name());
             return Err(problem.help(help).into());
         }
-        let numbers = numbers(self.rows, self.controlled);
+        let numbers = numbers(self.of.rows, self.controlled);
         let mut all = Vec::new();
         for (key, entry) in &table.entries {
             self.add_swept(&numbers, key, entry, spot, &mut all)?;
@@ -271,9 +271,7 @@ impl Kind for AxisOf {
             None => Ok(all),
         }
     }
-}
 
-impl AxisOf {
     /// The axis of a key, or those of the keys of the table that is given there: `zener = { time = [...] }` is `zener.time = [...]`.
     fn add_swept(
         &self,
@@ -289,7 +287,7 @@ impl AxisOf {
         let items = format!("{general}[].");
         let leads_to = |start: &str| numbers.iter().any(|n| n.key.starts_with(start));
         match (number, &entry.node.value) {
-            (_, Value::Array(items)) if key == WHOLE && self.listed.is_some() => {
+            (_, Value::Array(items)) if key == WHOLE && self.of.listed.is_some() => {
                 to.push(self.listed(items, entry, spot)?);
             }
             (Some(number), _) => to.push(self.swept(number, key, entry, spot)?),
@@ -322,25 +320,25 @@ impl AxisOf {
         let path = join(spot.path, key);
         let spot = Spot {
             path: &path,
-            key: Some(row.name()),
+            key: Some(row.name),
         };
-        let points = match (&entry.node.value, self.in_order) {
-            (Value::Array(_), true) => {
-                let all = Array {
-                    entries: 1..=MOST_POINTS,
-                    ..list(*scalar)
-                };
-                let points = all.convert(&entry.node, &spot)?;
-                points.into_iter().map(|point| point.value).collect()
-            }
-            _ => Points(*scalar).convert(&entry.node, &spot)?,
+        let (node, in_order) = (&entry.node, Entries::of(1..=MOST_POINTS, ""));
+        let kind = &match (&node.value, self.in_order) {
+            (Value::Array(_), true) => Kind::Numbers(*scalar, in_order),
+            _ => Kind::Points(*scalar, &RANGE),
         };
+        let points = Asked {
+            kind,
+            node,
+            spot: &spot,
+        };
+        let points = Vec::of(points.read()?).unwrap_or_default();
         Ok(Swept {
             varied: Varied::number(
                 self.block,
                 match number.key.contains('.') {
                     true => Cow::Owned(key.to_owned()),
-                    false => Cow::Borrowed(row.name()),
+                    false => Cow::Borrowed(row.name),
                 },
                 scalar.dimension,
             ),
@@ -416,7 +414,12 @@ impl AxisOf {
                     path: &path,
                     key: Some(NAME.name),
                 };
-                Text.convert(&entry.node, &spot)?
+                let text = Asked {
+                    kind: &Kind::Text,
+                    node: &entry.node,
+                    spot: &spot,
+                };
+                String::of(text.read()?).unwrap_or_default()
             }
             (None, Some(library)) => library,
             (None, None) => {

@@ -2,7 +2,7 @@
 //!
 //! A [`Document`] is parsed from a file and changed by `--set KEY=VALUE` flags. It is then read through
 //! `TableReader`s, which turn values into typed ones and report to [`Problems`] instead of stopping at the
-//! first mistake. What a key may hold is in its row (`row::Row`). Three rules keep reading code short:
+//! first mistake. What a key may hold is in its declaration ([`Key`](crate::quantity::key::Key)). Three rules keep reading code short:
 //!
 //! - `None` from a reader method means that a problem was reported. Of a key that may be left out, the answer within is `None` too.
 //! - A value comes as [`Located`], so that a check made later can still point at it.
@@ -52,11 +52,6 @@ impl<T> Located<T> {
             location: self.location,
         }
     }
-}
-
-/// The values of a list without their places.
-pub(crate) fn plain<T>(list: Vec<Located<T>>) -> Vec<T> {
-    list.into_iter().map(|located| located.value).collect()
 }
 
 impl Located<String> {
@@ -270,12 +265,10 @@ mod tests {
 
     use super::*;
     use crate::input::diagnostic::Styling;
-    use crate::input::document::kind::{
-        Boolean, Choice, Integer, Kind, Table, Text, list, number, quantity,
-    };
-    use crate::input::document::reader::by_name::{NOTHING, below, items, key};
-    use crate::input::document::row::{Optional, Required, Row};
+    use crate::input::document::reader::by_name::{NOTHING, below, items, key, look};
     use crate::quantity::Dimension;
+    use crate::quantity::key::Presence::{Optional, Required};
+    use crate::quantity::key::{Entries, Key, Kind, number, quantity};
 
     fn refusal(bytes: &[u8]) -> String {
         match Document::from_bytes("sweep.toml", bytes) {
@@ -289,10 +282,11 @@ mod tests {
         let problems = Problems::new();
         let mut root = document.root(&problems);
         let load = root.table(&below("drive")).and_then(|mut drive| {
-            let mean = drive.read(&row("mean", quantity(Dimension::Force)));
-            let amplitude = drive.read(&row("amplitude", quantity(Dimension::Force)));
+            let force = Kind::Number(quantity(Dimension::Force));
+            let mean = drive.read(&row("mean", force.clone()));
+            let amplitude = drive.read(&row("amplitude", force));
             drive.finish();
-            let (mean, amplitude) = (mean?, amplitude?);
+            let (mean, amplitude): (Located<f64>, Located<f64>) = (mean?, amplitude?);
             if amplitude.value > mean.value {
                 problems
                     .at(&amplitude, "the load becomes negative within a cycle")
@@ -375,27 +369,31 @@ mod tests {
         "#);
     }
 
-    fn row<K: Kind>(name: &'static str, kind: K) -> Row<K, Required> {
+    fn row(name: &'static str, kind: Kind) -> Key {
         key(name, kind, Required)
     }
 
     /// Reads every key of every table in every way, so that every message is made once.
     fn read_everything(mut reader: TableReader<'_>, keys: &[&'static str], depth: usize) {
         for &name in keys {
-            let _ = reader.read(&row(name, quantity(Dimension::Force)));
-            let _ = reader.read(&row(name, number("1.0")));
-            let _ = reader.read(&row(name, Integer(1..=10)));
-            let _ = reader.read(&row(name, Text));
-            let _ = reader.read(&row(name, Boolean));
-            let _ = reader.read(&row(name, Choice(&[("load", ()), ("approach", ())])));
-            let _ = reader.read(&row(name, list(quantity(Dimension::Time))));
+            for kind in [
+                Kind::Number(quantity(Dimension::Force)),
+                Kind::Number(number("1.0")),
+                Kind::Integer(1..=10),
+                Kind::Text,
+                Kind::Flag,
+                Kind::Word(&["load", "approach"]),
+                Kind::Numbers(quantity(Dimension::Time), Entries::ANY),
+            ] {
+                let _ = look(&mut reader, &row(name, kind));
+            }
             if depth < 3 {
-                let below = key(name, Table(&NOTHING), Optional);
+                let below = key(name, Kind::Table(&NOTHING), Optional);
                 let _ = reader.table_or(&below, (), |inner| {
                     read_everything(inner, keys, depth + 1);
                     None
                 });
-                let _ = reader.optional_tables(&items(name, Optional), |inner| {
+                let _ = reader.tables(&items(name, Optional), |inner| {
                     read_everything(inner, keys, depth + 1);
                     Some(())
                 });

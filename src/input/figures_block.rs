@@ -1,19 +1,42 @@
 //! The `[figures]` block of sweep and scenario files: how figures are to look.
 
-use super::diagnostic::Problems;
+use super::diagnostic::{Location, Problems};
+use super::document::block;
 use super::document::reader::TableReader;
-use super::document::{Located, plain};
-use super::keys::settings::{
-    AXES, COLUMN, FONT_SIZE_PT, FORMATS, FREQUENCY_UNIT, HEIGHT, LOOPS, RESOLUTION, TITLES, WIDTH,
-};
 use crate::figures::paper;
+use crate::quantity::block::{Block, Reported, Source};
+use crate::quantity::key::Key;
+use crate::quantity::rows::{List, Others, Rows};
+use crate::quantity::setting::Value;
 use crate::quantity::{Dimension, FrequencyUnit, format_human};
 use crate::sweep::plan::figures::{AxisUnits, FigurePlan, Format};
+
+/// The keys of figures of a sweep, of which the first are of no use to a history.
+const KEYS: &[Key] = FigurePlan::KEYS;
+const OF_FREQUENCIES: usize = 2;
+
+pub(super) static OF_SWEEP: Rows = of_keys(&[KEYS]);
+pub(super) static OF_SCENARIO: Rows = of_keys(&[KEYS.split_at(OF_FREQUENCIES).1]);
+
+const fn of_keys(keys: List) -> Rows {
+    Rows {
+        means: FigurePlan::MEANS,
+        keys,
+        others: Others::AtMostOne(&["width", "column"]),
+    }
+}
 
 /// Less room than this (in px of the drawing, whose text is 16 px) is no figure; more pixels than this no computer shows.
 const LEAST_WIDTH_PX: f64 = 320.0;
 const LEAST_HEIGHT_PX: f64 = 240.0;
 const MOST_PIXELS: f64 = 16_000.0;
+
+/// What the block holds.
+#[derive(Clone, Default)]
+pub(crate) struct Figures {
+    pub(crate) plan: FigurePlan,
+    axes: Option<Location>,
+}
 
 /// Reads the block of a sweep file; `None` where a problem was reported. `frequencies_rad_per_s` are those of the sweep,
 /// ascending, given in this unit.
@@ -21,28 +44,45 @@ pub(crate) fn of_sweep(
     mut table: TableReader<'_>,
     (frequencies_rad_per_s, given_in): (Option<&[f64]>, FrequencyUnit),
 ) -> Option<Figures> {
-    let loops = loops(&mut table, frequencies_rad_per_s);
-    let unit = table.value(&FREQUENCY_UNIT);
-    let figures = read(table);
-    let (loops_rad_per_s, unit, mut figures) = (loops?, unit?, figures?);
-    figures.plan.loops_rad_per_s = loops_rad_per_s;
-    figures.plan.frequency_unit = unit.unwrap_or(given_in);
-    Some(figures)
+    let plan = block::read_from(&mut table, Some(&Figures::of_unit(given_in).plan));
+    let loops = plan
+        .as_ref()
+        .map_or(&[][..], |plan: &FigurePlan| &plan.loops_rad_per_s);
+    let loops = check_loops(&mut table, loops, frequencies_rad_per_s);
+    checked(table, plan).filter(|_| loops.is_some())
 }
 
-/// What the block holds.
-#[derive(Clone, Default)]
-pub(crate) struct Figures {
-    pub(crate) plan: FigurePlan,
-    axes: Option<Located<AxisUnits>>,
+/// Reads the block of a scenario file; `None` where a problem was reported.
+pub(crate) fn read(table: TableReader<'_>) -> Option<Figures> {
+    let mut table = OfScenario(table);
+    let plan = FigurePlan::read(&mut table, None);
+    checked(table.0, plan)
+}
+
+/// A block that has no keys of frequencies.
+struct OfScenario<'a>(TableReader<'a>);
+
+impl Source for OfScenario<'_> {
+    fn value(&mut self, key: &'static Key) -> Result<Option<Value>, Reported> {
+        match KEYS[..OF_FREQUENCIES].iter().any(|other| other.is(key)) {
+            true => Ok(None),
+            false => Source::value(&mut self.0, key),
+        }
+    }
+
+    fn report_absent(&mut self, key: &'static Key) {
+        self.0.report_absent(key);
+    }
 }
 
 impl Figures {
     /// Those of a sweep without the block, whose frequencies are given in this unit.
     pub(crate) fn of_unit(frequency_unit: FrequencyUnit) -> Self {
-        let mut figures = Self::default();
-        figures.plan.frequency_unit = frequency_unit;
-        figures
+        let plan = FigurePlan {
+            frequency_unit,
+            ..FigurePlan::DEFAULT
+        };
+        Self { plan, axes: None }
     }
 
     /// Refuses normalised axes where there is nothing to normalise by.
@@ -51,7 +91,7 @@ impl Figures {
         scale: impl FnOnce() -> Result<(), E>,
         problems: &Problems,
     ) -> Option<FigurePlan> {
-        if let Some(axes) = self.axes.filter(|axes| axes.value == AxisUnits::Normalised)
+        if let (AxisUnits::Normalised, Some(axes)) = (self.plan.axes, self.axes)
             && let Err(why) = scale()
         {
             problems
@@ -64,43 +104,30 @@ impl Figures {
     }
 }
 
-/// Reads the keys that sweeps and scenarios share; `None` where a problem was reported.
-pub(crate) fn read(mut table: TableReader<'_>) -> Option<Figures> {
+/// What was read of the block, where the size of the figures is right; all keys were asked for.
+fn checked(mut table: TableReader<'_>, plan: Option<FigurePlan>) -> Option<Figures> {
     let problems = table.problems();
-    let default = FigurePlan::default();
-    let width = match table.has(&WIDTH) && table.has(&COLUMN) {
-        true => table.one_of(&[(&WIDTH, ()), (&COLUMN, ())]).map(|()| None),
-        false if table.has(&COLUMN) => table.read(&COLUMN),
-        false => table.read(&WIDTH),
-    };
-    let height = table.read(&HEIGHT);
-    let font_size_pt = table.value(&FONT_SIZE_PT);
-    let formats = table.value(&FORMATS);
-    let (dpi, axes) = (table.read(&RESOLUTION), table.read(&AXES));
-    let titles = table.value(&TITLES);
+    let widths = KEYS.iter().rev();
+    let widths = widths.filter(|key| ["width", "column"].contains(&key.name));
+    let widths: Vec<(&Key, ())> = widths.map(|key| (key, ())).collect();
+    let is_one = !widths.iter().all(|(key, ())| table.has(key)) || table.one_of(&widths).is_some();
+    let [width, column, height] = ["width", "column", "height"].map(|key| table.value_place(key));
+    let [dpi, axes] = ["dpi", "axes"].map(|key| table.value_place(key));
     table.finish();
-    let (width, height, dpi, axes) = (width?, height?, dpi?, axes?);
-    let value = |located: &Option<Located<f64>>| located.as_ref().map(|located| located.value);
-    let plan = FigurePlan {
-        loops_rad_per_s: Vec::new(),
-        width_m: value(&width),
-        height_m: value(&height),
-        font_size_pt: font_size_pt?,
-        formats: formats?.map_or(default.formats, plain),
-        dpi: dpi.as_ref().map(|dpi| dpi.value),
-        axes: axes.as_ref().map_or(default.axes, |axes| axes.value),
-        frequency_unit: default.frequency_unit,
-        titles: titles?.unwrap_or(default.titles),
-    };
-    let fits = fits(&plan, [&width, &height], dpi.as_ref(), problems);
-    fits.then_some(Figures { plan, axes })
+    let mut plan = plan.filter(|_| is_one)?;
+    // A resolved file has the width that it is.
+    if let Some(column) = plan.column.take() {
+        plan.width_m = Some(column.width_m());
+    }
+    let sides = [width.or(column), height];
+    fits(&plan, &sides, dpi.as_ref(), problems).then_some(Figures { plan, axes })
 }
 
 /// Whether a figure of this size has room for its text, and a PNG of it a sensible number of pixels.
 fn fits(
     plan: &FigurePlan,
-    [width, height]: [&Option<Located<f64>>; 2],
-    dpi: Option<&Located<usize>>,
+    [width, height]: &[Option<Location>; 2],
+    dpi: Option<&Location>,
     problems: &Problems,
 ) -> bool {
     let Some(paper) = paper::paper_size(plan) else {
@@ -142,21 +169,27 @@ fn fits(
     fine
 }
 
-/// The frequencies (rad/s) whose loops are drawn, each within the sweep.
-fn loops(table: &mut TableReader<'_>, frequencies_rad_per_s: Option<&[f64]>) -> Option<Vec<f64>> {
-    let Some(list) = table.read(&LOOPS)? else {
-        return Some(Vec::new());
-    };
+/// Whether the frequencies (rad/s) whose loops are drawn are within the sweep.
+fn check_loops(
+    table: &mut TableReader<'_>,
+    loops_rad_per_s: &[f64],
+    frequencies_rad_per_s: Option<&[f64]>,
+) -> Option<()> {
+    if loops_rad_per_s.is_empty() {
+        return Some(());
+    }
     // Where the frequencies are wrong, that has been reported.
     let ends = frequencies_rad_per_s.and_then(|all| Some((*all.first()?, *all.last()?)));
     let (first, last) = ends?;
     let mut fine = true;
     // Ends that are written are met; those of frequencies in Hz, to rounding.
     let within = (first * (1.0 - 1e-9))..=(last * (1.0 + 1e-9));
-    for loop_ in list.value.iter().filter(|w| !within.contains(&w.value)) {
+    let places = table.places_in("loops");
+    let placed = loops_rad_per_s.iter().zip(&places);
+    for (_, place) in placed.filter(|(omega, _)| !within.contains(*omega)) {
         let human = |omega| format_human(omega, Dimension::AngularFrequency, 4);
         (table.problems())
-            .at(loop_, "this frequency is outside the sweep")
+            .at(place, "this frequency is outside the sweep")
             .because(format!(
                 "the sweep runs from {} to {}",
                 human(first),
@@ -165,5 +198,5 @@ fn loops(table: &mut TableReader<'_>, frequencies_rad_per_s: Option<&[f64]>) -> 
             .help("choose one within it, or widen the sweep");
         fine = false;
     }
-    fine.then(|| plain(list.value))
+    fine.then_some(())
 }

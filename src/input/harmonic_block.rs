@@ -1,6 +1,7 @@
 //! The `[drive]` block of a sweep file: an oscillating load or approach.
 
 use super::diagnostic::{Location, Problems};
+use super::document::Located;
 use super::document::reader::TableReader;
 use super::keys::DRIVE;
 use super::keys::drive::{AMPLITUDE, HOLD, MEAN, PHASE, PRESCRIBES, Prescribed};
@@ -26,7 +27,7 @@ pub(super) struct Pressed {
     pub(super) is_attracted: bool,
 }
 
-/// What is prescribed, and what a value is multiplied by to be a load or an approach: the area (m^2) of the period that a mean pressure
+/// What is prescribed, in whose dimension values are read from now on, and what a value is multiplied by to be a load or an approach: the area (m^2) of the period that a mean pressure
 /// acts on, where there is one; `None` where there should be, which is reported.
 pub(super) fn scaled(
     table: &mut TableReader<'_>,
@@ -35,7 +36,8 @@ pub(super) fn scaled(
     let place = table.key_location(&PRESCRIBES);
     let place: &Location = place.as_ref().unwrap_or(table.as_ref());
     let (place, problems) = (place.clone(), table.problems());
-    let prescribed = table.value(&PRESCRIBES)?;
+    let prescribed: Prescribed = table.value(&PRESCRIBES)?;
+    table.choose(prescribed.dimension());
     if prescribed != Prescribed::Pressure {
         return Some((prescribed, Some(1.0)));
     }
@@ -55,13 +57,13 @@ pub(super) fn scaled(
 pub(super) fn read(mut table: TableReader<'_>, pressed: Pressed) -> Option<HarmonicDrive> {
     let problems = table.problems();
     let (prescribed, factor) = scaled(&mut table, pressed.area_m2)?;
-    let (control, dimension, factor) = (prescribed.control(), prescribed.dimension(), factor?);
+    let (control, factor) = (prescribed.control(), factor?);
     let make = match pressed.is_attracted {
         true => HarmonicDrive::unattracted,
         false => HarmonicDrive::new,
     };
-    let mean = table.read(&MEAN.of(dimension));
-    let amplitude = table.read(&AMPLITUDE.of(dimension));
+    let mean: Option<Located<f64>> = table.read(&MEAN);
+    let amplitude: Option<Located<f64>> = table.read(&AMPLITUDE);
     let (phase_rad, hold_s) = (table.value(&PHASE), table.value(&HOLD));
     table.finish();
     let (mean, amplitude) = (mean?, amplitude?);

@@ -6,7 +6,7 @@ use super::bodies_block::Bodies;
 use super::data_file;
 use super::diagnostic::Diagnostics;
 use super::document::reader::TableReader;
-use super::document::{Document, block};
+use super::document::{Document, Located, block};
 use super::given::Given;
 use super::harmonic_block::Pressed;
 use super::keys;
@@ -14,6 +14,7 @@ use super::keys::identify::{
     APPROACH_ZERO, DATA, IDENTIFY, IDENTIFY_BRANCHES, KNOWN_MATERIAL, MEASURED_DRIVE, MODEL_CYCLE,
 };
 use super::keys::material::BULK_MODULUS;
+use super::material_dynamic::number_of_branches;
 use super::segments_block::SEGMENTS;
 use super::{
     bodies_block, harmonic_block, material_block, measured_history, measured_table, segments_block,
@@ -135,8 +136,8 @@ struct Measured {
 /// The `[identify]` block: measurements, and how many branches.
 fn measured_block(mut table: TableReader<'_>, drive: Option<&Driven>) -> Option<Measured> {
     let (folder, problems) = (table.folder(), table.problems());
-    let data = table.read(&DATA);
-    let branches = table.value(&IDENTIFY_BRANCHES);
+    let data: Option<Located<String>> = table.read(&DATA);
+    let branches = number_of_branches(&mut table, &IDENTIFY_BRANCHES);
     let approach_zero = table.value(&APPROACH_ZERO);
     let place_of_zero = table.key_location(&APPROACH_ZERO);
     table.finish();
@@ -176,6 +177,6 @@ fn measured_block(mut table: TableReader<'_>, drive: Option<&Driven>) -> Option<
         measurements,
         columns,
         approach_zero,
-        branches: branches?.flatten(),
+        branches: branches?,
     })
 }

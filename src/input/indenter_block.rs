@@ -5,12 +5,10 @@ use std::sync::Arc;
 
 use super::data_file;
 use super::diagnostic::{Diagnostics, Location};
-use super::document::kind::{
-    Array, Choice, Describe, Number, Table, Tables, Text, number, pair, quantity,
-};
+use super::document::kind::Describe;
 use super::document::reader::TableReader;
-use super::document::row::{Optional, Or, Required, Row, Rows, choice, rows, table};
-use super::document::{Located, block, plain};
+use super::document::row::{choice, keys};
+use super::document::{Located, block};
 use super::field_file;
 use super::field_file::Field;
 use super::keys;
@@ -24,126 +22,104 @@ use crate::indenter::{
 };
 use crate::material::Material;
 use crate::quantity::Dimension::{Angle, Length};
+use crate::quantity::block::Block as _;
+use crate::quantity::key::{Entries, Key, Kind, Number, number, quantity, words_of};
+use crate::quantity::rows::{Rows, table};
 use crate::sweep::plan::resolved;
 
 const LENGTH: Number = quantity(Length).above_zero();
 const POSITION: &str = "write one for x and one for y: [\"1 um\", \"0 um\"]";
+const UNIT_WORDS: [&str; HEIGHT_UNITS.len()] = words_of(&HEIGHT_UNITS);
+
+/// More asperities than this are a height map.
+const MOST_ASPERITIES: usize = 10_000;
 
 choice! {
     /// The shape; what it needs is listed below.
     SHAPE = "shape", Shape, BY_SHAPE:
     /// A sphere, as the paraboloid of its radius.
-    Sphere = "sphere": &[&RADIUS];
+    Sphere = "sphere": &[&[RADIUS]];
     /// A cone.
-    Cone = "cone": &[&HALF_ANGLE];
+    Cone = "cone": &[&[HALF_ANGLE]];
     /// A flat cylindrical punch.
-    FlatPunch = "flat-punch": &[&RADIUS];
+    FlatPunch = "flat-punch": &[&[RADIUS]];
     /// An elliptic paraboloid.
-    Ellipsoid = "ellipsoid": &[&RADIUS_X, &RADIUS_Y];
+    Ellipsoid = "ellipsoid": &[&[RADIUS_X, RADIUS_Y]];
     /// gap = height (r / radius)^exponent.
-    PowerLaw = "power-law": &[&EXPONENT, &GAP_RADIUS, &GAP_HEIGHT];
+    PowerLaw = "power-law": &[&[EXPONENT, GAP_RADIUS, GAP_HEIGHT]];
     /// A profile of revolution: columns `r_m`, `gap_m`, from the axis outwards.
-    Profile = "profile": FILE_KEYS;
+    Profile = "profile": &[&[FILE, SHA256]];
     /// A measured surface: a matrix (CSV or `.npy`), or columns `x_m`, `y_m`, `z_m`.
-    HeightMap = "height-map": &[&FILE, &SHA256, &MAP_SPACING, &MAP_QUANTITY, &HEIGHT_UNIT, &LEVEL, &EDGE];
+    HeightMap = "height-map": &[&[FILE, SHA256, MAP_SPACING, MAP_QUANTITY, HEIGHT_UNIT, LEVEL, EDGE]];
     /// Paraboloids side by side.
-    Asperities = "asperities": ASPERITIES_KEYS;
+    Asperities = "asperities": &[&[ASPERITY_LIST]];
     /// A random self-affine surface.
-    Rough = "rough" of Roughness: &[];
+    Rough = "rough": &[Roughness::KEYS];
 }
 
-rows! { _:
+keys! {
     /// Moves the indenter along x and y.
-    OFFSET: Row<Array<Number>, Optional> = "offset", pair(quantity(Length), POSITION), Optional;
+    OFFSET = "offset", Kind::Numbers(quantity(Length), Entries::two(POSITION)), optional;
     /// Material of the indenter; left out: rigid.
-    INDENTER_MATERIAL: Row<Table, Optional> = "material", Table(&INDENTER_MATERIAL_KEYS), Optional;
+    INDENTER_MATERIAL = "material", Kind::Table(&INDENTER_MATERIAL_KEYS), optional;
+    /// Name of the indenter in tables and figures.
+    INDENTER_NAME = "name", Kind::Text;
+    /// Radius.
+    RADIUS = "radius", Kind::Number(LENGTH);
+    /// Angle between axis and flank; 90 deg is a plane.
+    HALF_ANGLE = "half_angle", Kind::Number(quantity(Angle).above_zero().such_as("\"70 deg\""));
+    /// Principal radius of curvature along x.
+    RADIUS_X = "radius_x", Kind::Number(LENGTH);
+    /// Principal radius of curvature along y.
+    RADIUS_Y = "radius_y", Kind::Number(LENGTH);
+    /// Exponent of the gap; 2 is a paraboloid.
+    EXPONENT = "exponent", Kind::Number(number("4.0"));
+    /// Radius at which the gap is `height`.
+    GAP_RADIUS = "radius", Kind::Number(LENGTH);
+    /// Gap at `radius`.
+    GAP_HEIGHT = "height", Kind::Number(LENGTH);
+    /// Data file; its path is relative to this file, in a flag to the working folder.
+    FILE = "file", Kind::Text;
+    /// SHA-256 of the data file, in hexadecimal, to make sure that it has not changed.
+    SHA256 = "sha256", Kind::Text, optional;
+    /// Distance between points of a matrix, or one for x and one for y; not for files with columns `x_m`, `y_m`, `z_m`.
+    MAP_SPACING = "spacing", Kind::Numbers(LENGTH, Entries::of(1..=2, POSITION)), optional;
+    /// Whether values are heights, positive towards the half-space, or gaps.
+    MAP_QUANTITY = "quantity", Kind::Word(MapQuantity::WORDS), or MapQuantity::Height;
+    /// Unit of the values of a matrix.
+    HEIGHT_UNIT = "height_unit", Kind::Word(&UNIT_WORDS), or UNIT_WORDS[0].to_owned();
+    /// What is subtracted from the values first: nothing, their mean, or the best-fit plane.
+    LEVEL = "level", Kind::Word(MapLevel::WORDS), or MapLevel::None;
+    /// What lies outside the map: unknown, so the contact must stay within; nothing (`rim`); or periodic repetitions of the map
+    /// (`periodic`), under a prescribed load.
+    EDGE = "edge", Kind::Word(MapEdge::WORDS), or MapEdge::Unknown;
+    /// The asperities.
+    ASPERITY_LIST = "asperities", Kind::Tables(&ASPERITY, MOST_ASPERITIES, ", or a height map");
+    /// Position of the summit along x and y.
+    CENTER = "center", Kind::Numbers(quantity(Length), Entries::two(POSITION));
+    /// Radius of curvature at the summit.
+    ASPERITY_RADIUS = "radius", Kind::Number(LENGTH);
+    /// Height of the summit towards the half-space.
+    ASPERITY_HEIGHT = "height", Kind::Number(quantity(Length)), or 0.0;
 }
+
+static ASPERITY: Rows = table(
+    " One asperity.",
+    &[&[CENTER, ASPERITY_RADIUS, ASPERITY_HEIGHT]],
+);
 
 pub(super) static INDENTER: Rows = Rows {
     means: " The indenter. Shapes other than convex bodies of revolution need the half-space engine.",
-    keys: &[&SHAPE, &OFFSET, &INDENTER_MATERIAL],
-    block: &[],
+    keys: &[&[SHAPE, OFFSET, INDENTER_MATERIAL]],
     others: BY_SHAPE,
 };
-
-rows! { _:
-    /// Name of the indenter in tables and figures.
-    INDENTER_NAME: Row<Text, Required> = "name", Text, Required;
-}
 
 /// One of several indenters of a sweep.
 pub(super) static LISTED_INDENTER: Rows = Rows {
     means: " One of several indenters.",
-    keys: &[&INDENTER_NAME, &SHAPE, &OFFSET, &INDENTER_MATERIAL],
-    block: &[],
+    keys: &[&[INDENTER_NAME, SHAPE, OFFSET, INDENTER_MATERIAL]],
     others: BY_SHAPE,
 };
-
-rows! { _:
-    /// Radius.
-    RADIUS: Row<Number, Required> = "radius", LENGTH, Required;
-    /// Angle between axis and flank; 90 deg is a plane.
-    HALF_ANGLE: Row<Number, Required> =
-        "half_angle", quantity(Angle).above_zero().such_as("\"70 deg\""), Required;
-    /// Principal radius of curvature along x.
-    RADIUS_X: Row<Number, Required> = "radius_x", LENGTH, Required;
-    /// Principal radius of curvature along y.
-    RADIUS_Y: Row<Number, Required> = "radius_y", LENGTH, Required;
-    /// Exponent of the gap; 2 is a paraboloid.
-    EXPONENT: Row<Number, Required> = "exponent", number("4.0"), Required;
-    /// Radius at which the gap is `height`.
-    GAP_RADIUS: Row<Number, Required> = "radius", LENGTH, Required;
-    /// Gap at `radius`.
-    GAP_HEIGHT: Row<Number, Required> = "height", LENGTH, Required;
-}
-
-rows! { FILE_KEYS:
-    /// Data file; its path is relative to this file, in a flag to the working folder.
-    FILE: Row<Text, Required> = "file", Text, Required;
-    /// SHA-256 of the data file, in hexadecimal, to make sure that it has not changed.
-    SHA256: Row<Text, Optional> = "sha256", Text, Optional;
-}
-
-rows! { _:
-    /// Distance between points of a matrix, or one for x and one for y; not for files with columns `x_m`, `y_m`, `z_m`.
-    MAP_SPACING: Row<Array<Number>, Optional> =
-        "spacing", Array { entries: 1..=2, ..pair(LENGTH, POSITION) }, Optional;
-    /// Whether values are heights, positive towards the half-space, or gaps.
-    MAP_QUANTITY: Row<Choice<MapQuantity>, Or<MapQuantity>> =
-        "quantity", Choice(MapQuantity::NAMES), Or(MapQuantity::Height);
-    /// Unit of the values of a matrix.
-    HEIGHT_UNIT: Row<Choice<f64>, Or<f64>> =
-        "height_unit", Choice(&HEIGHT_UNITS), Or(HEIGHT_UNITS[0].1);
-    /// What is subtracted from the values first: nothing, their mean, or the best-fit plane.
-    LEVEL: Row<Choice<MapLevel>, Or<MapLevel>> =
-        "level", Choice(MapLevel::NAMES), Or(MapLevel::None);
-    /// What lies outside the map: unknown, so the contact must stay within; nothing (`rim`); or periodic repetitions of the map
-    /// (`periodic`), under a prescribed load.
-    EDGE: Row<Choice<MapEdge>, Or<MapEdge>> =
-        "edge", Choice(MapEdge::NAMES), Or(MapEdge::Unknown);
-}
-
-/// More asperities than this are a height map.
-const MOST_ASPERITIES: usize = 10_000;
-
-rows! { ASPERITIES_KEYS:
-    /// The asperities.
-    ASPERITY_LIST: Row<Tables, Required> =
-        "asperities",
-        Tables { rows: &ASPERITY, most: MOST_ASPERITIES, instead: ", or a height map" },
-        Required;
-}
-
-rows! { ASPERITY_KEYS:
-    /// Position of the summit along x and y.
-    CENTER: Row<Array<Number>, Required> = "center", pair(quantity(Length), POSITION), Required;
-    /// Radius of curvature at the summit.
-    ASPERITY_RADIUS: Row<Number, Required> = "radius", LENGTH, Required;
-    /// Height of the summit towards the half-space.
-    ASPERITY_HEIGHT: Row<Number, Or<f64>> = "height", quantity(Length), Or(0.0);
-}
-
-static ASPERITY: Rows = table(" One asperity.", ASPERITY_KEYS);
 
 /// A shape, or nothing where a problem was reported.
 type Made = Option<Arc<dyn Indenter>>;
@@ -151,8 +127,8 @@ type Made = Option<Arc<dyn Indenter>>;
 /// Reads the block; `None` where a problem was reported.
 pub(super) fn read(table: TableReader<'_>) -> Made {
     let mut block = Block(table);
-    let shape = block.0.read(&SHAPE)?;
-    let offset = block.0.value(&OFFSET);
+    let shape: Located<Shape> = block.0.read(&SHAPE)?;
+    let offset: Option<Option<Vec<f64>>> = block.0.value(&OFFSET);
     // Read by itself, with the material that it is pressed against.
     block.0.has(&INDENTER_MATERIAL);
     let made = match shape.value {
@@ -169,7 +145,7 @@ pub(super) fn read(table: TableReader<'_>) -> Made {
     let problems = block.0.problems();
     block.0.finish();
     let (made, offset) = (made?, offset?);
-    match offset.map(plain).as_deref() {
+    match offset.as_deref() {
         Some(&[x_m, y_m]) => {
             let shifted = problems.accept(&shape, Shifted::new(made, x_m, y_m))?;
             Some(Arc::new(shifted))
@@ -186,7 +162,7 @@ pub(super) fn map_of(table: TableReader<'_>, field: Field) -> Option<HeightMap> 
         location: table.as_ref().clone(),
     };
     let mut block = Block(table);
-    block.0.read(&SHAPE)?;
+    block.0.value::<Shape>(&SHAPE)?;
     let named = Named {
         place,
         name: "array".to_owned(),
@@ -235,13 +211,13 @@ impl Block<'_> {
     /// A shape made of one number.
     fn single<S: Indenter + 'static>(
         &mut self,
-        row: &Row<Number, Required>,
+        key: &Key,
         make: fn(f64) -> Result<S, IndenterError>,
     ) -> Made {
-        let size = self.0.read(row)?;
+        let size: Located<f64> = self.0.read(key)?;
         let made = make(size.value).map_err(|error| {
             let report = self.0.problems().at(&size, error.to_string());
-            report.help(format!("for example {} = {}", row.name, row.kind.example()));
+            report.help(format!("for example {} = {}", key.name, key.kind.example()));
         });
         Some(Arc::new(made.ok()?))
     }
@@ -261,7 +237,7 @@ impl Block<'_> {
     }
 
     fn power_law(&mut self, shape: &Located<Shape>) -> Made {
-        let exponent = self.0.read(&EXPONENT);
+        let exponent: Option<Located<f64>> = self.0.read(&EXPONENT);
         let (radius_m, height_m) = (self.0.value(&GAP_RADIUS), self.0.value(&GAP_HEIGHT));
         let (exponent, radius_m, height_m) = (exponent?, radius_m?, height_m?);
         match PowerLaw::new(exponent.value, radius_m, height_m) {
@@ -272,10 +248,11 @@ impl Block<'_> {
 
     fn asperities(&mut self) -> Made {
         let all = self.0.tables(&ASPERITY_LIST, |mut table| {
-            let (center, radius_m) = (table.value(&CENTER), table.value(&ASPERITY_RADIUS));
+            let center: Option<Vec<f64>> = table.value(&CENTER);
+            let radius_m = table.value(&ASPERITY_RADIUS);
             let height_m = table.value(&ASPERITY_HEIGHT);
             table.finish();
-            let [center_x_m, center_y_m] = plain(center?).try_into().ok()?;
+            let [center_x_m, center_y_m] = center?.try_into().ok()?;
             Some(Asperity {
                 center_x_m,
                 center_y_m,
@@ -301,7 +278,8 @@ impl Block<'_> {
         &mut self,
         make: impl FnOnce(&str, &[u8]) -> Result<T, Diagnostics>,
     ) -> Option<(T, Named)> {
-        let (file, sha256) = (self.0.read(&FILE), self.0.read(&SHA256));
+        let file: Option<Located<String>> = self.0.read(&FILE);
+        let sha256: Option<Option<Located<String>>> = self.0.read_if(&SHA256);
         let (place, sha256) = (file?, sha256?);
         let problems = self.0.problems();
         let path = place.path_from(self.0.folder());
@@ -352,15 +330,17 @@ impl Block<'_> {
     ) -> Option<(Located<String>, Result<HeightMap, IndenterError>)> {
         let problems = self.0.problems();
         let quantity = self.0.value(&MAP_QUANTITY);
-        let (unit, level) = (self.0.value(&HEIGHT_UNIT), self.0.value(&LEVEL));
+        let unit = self.0.chosen(&HEIGHT_UNIT, &HEIGHT_UNITS);
+        let level = self.0.value(&LEVEL);
         let edge = self.0.value(&EDGE);
         let given = self.0.key_location(&MAP_SPACING);
         let unit_given = self.0.key_location(&HEIGHT_UNIT);
-        let (spacing, data) = (self.0.value(&MAP_SPACING), data(self));
+        let spacing: Option<Option<Vec<f64>>> = self.0.value(&MAP_SPACING);
+        let data = data(self);
         let (mut field, named) = data?;
         let spacing_m = match (field.spacing_m, spacing?) {
             (Some(spacing_m), None) => spacing_m,
-            (None, Some(each)) => (each.first()?.value, each.last()?.value),
+            (None, Some(each)) => (*each.first()?, *each.last()?),
             (None, None) => {
                 self.0.report_absent(&MAP_SPACING);
                 return None;
@@ -373,7 +353,7 @@ impl Block<'_> {
         };
         let reading = MapReading {
             gives_places: field.spacing_m.is_some(),
-            unit_per_m: unit?,
+            unit_per_m: unit??,
             level: level?,
         };
         if let (true, Some(unit)) = (reading.gives_places, unit_given) {

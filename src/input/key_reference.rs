@@ -2,8 +2,10 @@
 
 use std::fmt::Write;
 
-use super::document::row::{AnyRow, Branch, Rows};
+use super::document::kind::json_of;
 use super::keys::{self, FileKind};
+use crate::quantity::key::Key;
+use crate::quantity::rows::{Branch, Rows};
 
 /// The reference, as Markdown.
 pub fn markdown() -> String {
@@ -28,7 +30,7 @@ pub fn ways(path: &str) -> Vec<(&'static str, &'static str)> {
     for branch in tables.find(|ways| !ways.is_empty()).unwrap_or_default() {
         let way = match branch.decided_by.first() {
             Some((_, Some(word))) => (*word, branch.means.trim()),
-            Some((key, None)) => (*key, branch.keys.first().map_or("", |row| row.means())),
+            Some((key, None)) => (*key, branch.keys.first().map_or("", |key| key.means())),
             None => continue,
         };
         if !ways.iter().any(|(word, _)| *word == way.0) {
@@ -43,10 +45,10 @@ fn section(
     rows: &'static Rows,
     heading: &str,
     path: &str,
-    known: &mut Vec<*const Rows>,
+    known: &mut Vec<&'static Rows>,
     text: &mut String,
 ) {
-    if known.contains(&std::ptr::from_ref(rows)) {
+    if known.iter().any(|known| known.is(rows)) {
         return;
     }
     known.push(rows);
@@ -58,11 +60,11 @@ fn section(
         let _ = write!(text, "{}\n\n", introduction(branch));
         list(&branch.keys, text);
     }
-    for row in rows.all() {
-        if let Some(below) = row.kind().rows() {
+    for key in rows.all() {
+        if let Some(below) = key.kind.rows() {
             let path = match path {
-                "" => row.name().to_owned(),
-                path => format!("{path}.{}", row.name()),
+                "" => key.name.to_owned(),
+                path => format!("{path}.{}", key.name),
             };
             section(below, &format!("`{path}`"), &path, known, text);
         }
@@ -82,19 +84,19 @@ fn introduction(branch: &Branch) -> String {
     }
 }
 
-fn list(rows: &[&dyn AnyRow], text: &mut String) {
-    if rows.is_empty() {
+fn list(keys: &[&Key], text: &mut String) {
+    if keys.is_empty() {
         return;
     }
     text.push_str("| key | value | default | meaning |\n|---|---|---|---|\n");
-    for row in rows {
-        let absent = match row.default() {
-            Some(default) => format!("`{default}`"),
-            None if row.is_required() => "required".to_owned(),
+    for key in keys {
+        let absent = match key.default() {
+            Some(default) => format!("`{}`", json_of(&default)),
+            None if key.is_required() => "required".to_owned(),
             None => String::new(),
         };
-        let (name, value) = (row.name(), row.kind().expected());
-        let _ = writeln!(text, "| `{name}` | {value} | {absent} | {} |", row.means());
+        let (name, value) = (key.name, key.kind.expected());
+        let _ = writeln!(text, "| `{name}` | {value} | {absent} | {} |", key.means());
     }
     text.push('\n');
 }

@@ -3,18 +3,15 @@
 use std::sync::Arc;
 
 use super::diagnostic::Location;
-use super::document::Located;
-use super::document::kind::{Number, Table, Tables};
 use super::document::reader::TableReader;
-use super::document::row::{AnyRow, Optional, Required, Row};
+use super::document::{Located, block};
 use super::keys;
 use super::keys::material::{
-    BRANCH_COMPLIANCE, BRANCH_MODULUS, BRANCH_TIME, BULK_MODULUS, COMPLIANCE, CREEP,
-    CREEP_ALTERNATIVE, CREEP_BRANCHES, DYNAMIC, ELASTIC_BODY, ELASTIC_POISSON_RATIO, ELEMENT_TIME,
-    EQUILIBRIUM, FRACTIONAL, INSTANTANEOUS, ISOTHERMS, KELVIN_SPRING, KELVIN_VOIGT, LIBRARY,
-    LIBRARY_POISSON_RATIO, MAXWELL, MAXWELL_MODULUS, MEASURED, MEASURED_TABLE, MODULUS, NAME,
-    POISSON_RATIO, RELAXATION, RELAXATION_ALTERNATIVE, RELAXATION_BRANCHES, SPRING, VISCOSITY,
-    YOUNG, ZENER,
+    BULK_EQUILIBRIUM, BULK_MODULUS, COMPLIANCE, CREEP, CREEP_ALTERNATIVE, CREEP_BRANCHES, DYNAMIC,
+    ELASTIC_BODY, EQUILIBRIUM, Elastic, FORMS, FRACTIONAL, Form, INSTANTANEOUS, KELVIN_VOIGT,
+    KelvinVoigt, LIBRARY, LIBRARY_POISSON_RATIO, MAXWELL, MEASURED, MEASURED_TABLE, MODULUS,
+    Maxwell, NAME, POISSON_RATIO, RELAXATION, RELAXATION_ALTERNATIVE, RELAXATION_BRANCHES,
+    VISCOSITY, ZENER, Zener,
 };
 use super::material_dynamic::DynamicFit;
 use super::material_fractional;
@@ -24,40 +21,11 @@ use crate::material::classical::{kelvin_voigt, maxwell, zener};
 use crate::material::library::LibraryEntry;
 use crate::material::sampled::Sampled;
 use crate::material::{
-    Compressibility, Creep, CreepBranch, Material, MaterialError, ModulusKind, Relaxation, library,
+    Compressibility, Creep, Material, MaterialError, ModulusKind, Relaxation, library,
 };
+use crate::quantity::block::Block;
+use crate::quantity::key::Key;
 use crate::simulation::body_material::BodyMaterial;
-
-/// A way to give a material.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Form {
-    Library,
-    Elastic,
-    Relaxation,
-    Creep,
-    Maxwell,
-    Zener,
-    KelvinVoigt,
-    Fractional,
-    Isotherms,
-    Dynamic,
-    Measured,
-}
-
-/// The ways to give a material; exactly one of them.
-static FORMS: [(&dyn AnyRow, Form); 11] = [
-    (&LIBRARY, Form::Library),
-    (&ELASTIC_BODY, Form::Elastic),
-    (&RELAXATION, Form::Relaxation),
-    (&CREEP, Form::Creep),
-    (&MAXWELL, Form::Maxwell),
-    (&ZENER, Form::Zener),
-    (&KELVIN_VOIGT, Form::KelvinVoigt),
-    (&FRACTIONAL, Form::Fractional),
-    (&ISOTHERMS, Form::Isotherms),
-    (&DYNAMIC, Form::Dynamic),
-    (&MEASURED_TABLE, Form::Measured),
-];
 
 /// Reads the block as a series, which every material but samples used directly is. `None` where a problem was reported.
 pub(crate) fn read(root: &mut TableReader<'_>, direct_sum: DirectSum) -> Option<Located<Material>> {
@@ -102,14 +70,14 @@ pub(super) fn read_with_fit(
     axis: Option<&Located<Vec<f64>>>,
 ) -> Option<WithFit> {
     let mut fit = None;
-    let name = block.value(&NAME);
-    let Some(form) = block.one_of(&FORMS) else {
+    let name: Option<Option<String>> = block.value(&NAME);
+    let forms = FORMS.each_ref().map(|form| (&form.0, form));
+    let Some((key, form)) = block.one_of(&forms) else {
         // What else belongs to the table is open, but for this.
-        block.read(&LIBRARY_POISSON_RATIO);
+        block.value::<Option<f64>>(&LIBRARY_POISSON_RATIO);
         return None;
     };
-    let place = FORMS.iter().find(|(_, other)| *other == form);
-    let place = place.and_then(|(row, _)| block.key_location(*row))?;
+    let (place, form) = (block.key_location(key)?, *form);
     let read = match form {
         Form::Isotherms | Form::Dynamic => {
             let known = match form {
@@ -152,9 +120,8 @@ fn at_one_temperature(
 ) -> Option<BodyMaterial> {
     let problems = block.problems();
     let body = match form {
-        Form::Elastic => table_of(block, &ELASTIC_BODY, |table| {
-            let (modulus_pa, nu) = (table.value(&YOUNG), table.value(&ELASTIC_POISSON_RATIO));
-            Some(library::elastic(modulus_pa?, nu?).map(BodyMaterial::from))
+        Form::Elastic => elements(block, &ELASTIC_BODY).map(|body: Elastic| {
+            library::elastic(body.modulus_pa, body.poisson_ratio).map(BodyMaterial::from)
         }),
         _ => from_block(block, direct_sum, form),
     };
@@ -170,10 +137,11 @@ fn at_one_temperature(
 /// The Poisson ratio, or the bulk modulus in its place; `None` where a problem was reported.
 pub(super) fn compressibility(block: &mut TableReader<'_>) -> Option<Compressibility> {
     let Some(place) = block.key_location(&BULK_MODULUS) else {
-        return block.value(&POISSON_RATIO).map(Compressibility::from);
+        let poisson_ratio: Option<f64> = block.value(&POISSON_RATIO);
+        return poisson_ratio.map(Compressibility::from);
     };
     if let Some(other) = block.key_location(&POISSON_RATIO) {
-        block.value(&POISSON_RATIO);
+        block.value::<f64>(&POISSON_RATIO);
         let report =
             (block.problems()).at(&place, "`bulk_modulus` takes the place of `poisson_ratio`");
         report
@@ -181,7 +149,21 @@ pub(super) fn compressibility(block: &mut TableReader<'_>) -> Option<Compressibi
             .help("keep the one that you know");
         return None;
     }
-    block.value(&BULK_MODULUS).map(Compressibility::BulkModulus)
+    bulk_modulus(block).map(Compressibility::BulkModulus)
+}
+
+/// The bulk modulus, constant in time, or the series of one that relaxes; `None` where a problem was reported.
+fn bulk_modulus(block: &mut TableReader<'_>) -> Option<Relaxation> {
+    let place = block.value_place(BULK_MODULUS.name)?;
+    let made = match block.parsed(&BULK_MODULUS) {
+        None => Relaxation::new(block.value(&BULK_MODULUS)?, Vec::new()),
+        Some(_) => table_of(block, &BULK_MODULUS, |table| {
+            let equilibrium: Option<f64> = table.value(&BULK_EQUILIBRIUM);
+            let branches = branches(table, &RELAXATION_BRANCHES);
+            Some(Relaxation::new(equilibrium?, branches?))
+        })?,
+    };
+    block.problems().accept(&place, made)
 }
 
 /// The Poisson ratio of a body that has no bulk modulus: it gives in to nothing at once. `None` where a problem was reported.
@@ -193,7 +175,8 @@ fn poisson_ratio_alone(block: &mut TableReader<'_>) -> Option<Compressibility> {
             .help("write `poisson_ratio = 0.4` in place of `bulk_modulus`");
         return None;
     }
-    block.value(&POISSON_RATIO).map(Compressibility::from)
+    let poisson_ratio: Option<f64> = block.value(&POISSON_RATIO);
+    poisson_ratio.map(Compressibility::from)
 }
 
 /// A material of the library, at each temperature of an axis where it knows several.
@@ -204,7 +187,7 @@ fn library(
 ) -> Option<(BodyMaterial, Vec<Material>)> {
     let problems = block.problems();
     let entry = library_entry(block);
-    let poisson_ratio = block.value(&LIBRARY_POISSON_RATIO);
+    let poisson_ratio: Option<Option<f64>> = block.value(&LIBRARY_POISSON_RATIO);
     let untimed = measured(block, Form::Library);
     let (entry, poisson_ratio, _) = (entry?, poisson_ratio?, untimed?);
     let material = problems.accept(place, entry.material())?;
@@ -228,7 +211,7 @@ fn library(
 }
 
 fn library_entry(block: &mut TableReader<'_>) -> Option<&'static LibraryEntry> {
-    let name = block.read(&LIBRARY)?;
+    let name: Located<String> = block.read(&LIBRARY)?;
     let entry = library::find(&name.value);
     if entry.is_none() {
         let unknown = format!("no material \"{}\" in the library", name.value);
@@ -258,13 +241,13 @@ fn measured(block: &mut TableReader<'_>, form: Form) -> Option<Option<(f64, f64)
 
 /// The times of a `measured`, where there is one; `None` where a problem was reported.
 pub(super) fn measured_window(table: &mut TableReader<'_>) -> Option<Option<(f64, f64)>> {
-    let Some(times) = table.read(&MEASURED)? else {
+    let Some(times) = table.read_if::<Vec<f64>>(&MEASURED)? else {
         return Some(None);
     };
-    if let [first, last] = times.value.as_slice()
-        && last.value > first.value
+    if let [first, last] = times.value[..]
+        && last > first
     {
-        return Some(Some((first.value, last.value)));
+        return Some(Some((first, last)));
     }
     let what = "`measured` takes the first and the last time of the test";
     let report = table.problems().at(&times, what);
@@ -275,13 +258,18 @@ pub(super) fn measured_window(table: &mut TableReader<'_>) -> Option<Option<(f64
 /// What is read of a table below, which has no other keys.
 fn table_of<T>(
     block: &mut TableReader<'_>,
-    row: &Row<Table, Required>,
+    key: &Key,
     read: impl FnOnce(&mut TableReader<'_>) -> Option<T>,
 ) -> Option<T> {
-    let mut table = block.table(row)?;
+    let mut table = block.table(key)?;
     let made = read(&mut table);
     table.finish();
     made
+}
+
+/// The table below of a body of few elements.
+fn elements<B: Block>(block: &mut TableReader<'_>, key: &Key) -> Option<B> {
+    block.table(key).and_then(|table| block::read(table, None))
 }
 
 /// A material that has a Poisson ratio or a bulk modulus beside its table.
@@ -322,24 +310,21 @@ fn from_block(
             build?(nu?)
         }
         Form::Maxwell => {
-            let unit = table_of(block, &MAXWELL, |table| element(table, &MAXWELL_MODULUS));
-            let ((modulus_pa, time_s), nu) = (unit?, nu?);
-            maxwell(modulus_pa, time_s)
+            let body: Option<Maxwell> = elements(block, &MAXWELL);
+            let (body, nu) = (body?, nu?);
+            maxwell(body.modulus_pa, body.time_s)
                 .and_then(|body| Material::from_relaxation(body, ModulusKind::Shear, nu))
         }
         Form::KelvinVoigt => {
-            let unit = table_of(block, &KELVIN_VOIGT, |table| element(table, &SPRING));
-            let ((spring_pa, time_s), nu) = (unit?, nu?);
-            kelvin_voigt(spring_pa, time_s)
+            let body: Option<KelvinVoigt> = elements(block, &KELVIN_VOIGT);
+            let (body, nu) = (body?, nu?);
+            kelvin_voigt(body.spring_pa, body.time_s)
                 .and_then(|body| Material::from_creep(body, ModulusKind::Shear, nu))
         }
         Form::Zener => {
-            let body = table_of(block, &ZENER, |table| {
-                let spring = table.value(&SPRING);
-                spring.zip(element(table, &KELVIN_SPRING))
-            });
-            let ((spring_pa, (kelvin_pa, time_s)), nu) = (body?, nu?);
-            zener(spring_pa, kelvin_pa, time_s)
+            let body: Option<Zener> = elements(block, &ZENER);
+            let (body, nu) = (body?, nu?);
+            zener(body.spring_pa, body.kelvin_spring_pa, body.time_s)
                 .and_then(|body| Material::from_creep(body, ModulusKind::Shear, nu))
         }
     };
@@ -353,8 +338,8 @@ fn of_relaxation(
 ) -> Option<Result<Material, MaterialError>> {
     let own = table_of(block, &RELAXATION, |table| {
         let kind = table.value(&MODULUS);
-        let replicas = material_temperature::replicas(table);
         let own = relaxation(table);
+        let replicas = material_temperature::replicas(table);
         Some((own?, kind?, replicas?))
     });
     let others = alternatives(block, &RELAXATION_ALTERNATIVE, relaxation);
@@ -395,50 +380,31 @@ fn of_creep(
 /// The series beside another that fit the same data.
 fn alternatives<T>(
     block: &mut TableReader<'_>,
-    row: &Row<Tables, Optional>,
+    key: &Key,
     read: fn(&mut TableReader<'_>) -> Option<T>,
 ) -> Option<Vec<T>> {
-    block.optional_tables(row, |mut table| {
+    let others = block.tables(key, |mut table| {
         let other = read(&mut table);
         table.finish();
         other
-    })
-}
-
-/// A modulus and a time.
-fn element(table: &mut TableReader<'_>, modulus: &Row<Number, Required>) -> Option<(f64, f64)> {
-    let (modulus_pa, time_s) = (table.value(modulus), table.value(&ELEMENT_TIME));
-    modulus_pa.zip(time_s)
+    });
+    others.map(|others| others.value)
 }
 
 fn relaxation(table: &mut TableReader<'_>) -> Option<Result<Relaxation, MaterialError>> {
-    let equilibrium = table.value(&EQUILIBRIUM);
-    let branches = branches(table, &RELAXATION_BRANCHES, &BRANCH_MODULUS);
-    Some(material_temperature::prony(equilibrium?, branches?))
+    let equilibrium: Option<f64> = table.value(&EQUILIBRIUM);
+    let branches = branches(table, &RELAXATION_BRANCHES);
+    Some(Relaxation::new(equilibrium?, branches?))
 }
 
 fn creep(table: &mut TableReader<'_>) -> Option<Result<Creep, MaterialError>> {
-    let instantaneous = table.value(&INSTANTANEOUS);
-    let viscosity = table.value(&VISCOSITY);
-    let branches = branches(table, &CREEP_BRANCHES, &BRANCH_COMPLIANCE);
-    let branch = |(compliance_per_pa, time_s)| CreepBranch {
-        compliance_per_pa,
-        time_s,
-    };
-    let branches = branches?.into_iter().map(branch).collect();
-    Some(Creep::new(instantaneous?, branches, viscosity?))
+    let (instantaneous, viscosity) = (table.value(&INSTANTANEOUS), table.value(&VISCOSITY));
+    let branches = branches(table, &CREEP_BRANCHES);
+    Some(Creep::new(instantaneous?, branches?, viscosity?))
 }
 
-/// The branches of a series: (modulus or compliance, time).
-pub(super) fn branches(
-    table: &mut TableReader<'_>,
-    branches: &Row<Tables, Required>,
-    strength: &Row<Number, Required>,
-) -> Option<Vec<(f64, f64)>> {
-    let branches = table.tables(branches, |mut branch| {
-        let (strength, time_s) = (branch.value(strength), branch.value(&BRANCH_TIME));
-        branch.finish();
-        Some((strength?, time_s?))
-    });
+/// The branches of a series.
+pub(super) fn branches<B: Block>(table: &mut TableReader<'_>, key: &Key) -> Option<Vec<B>> {
+    let branches = table.tables(key, |branch| block::read(branch, None));
     branches.map(|branches| branches.value)
 }

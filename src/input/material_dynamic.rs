@@ -1,26 +1,22 @@
 //! The `[material.dynamic]` block: measured storage and loss modulus, made a material at any temperature that they reach.
 
-use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-use serde_json::{Value as Json, json};
-
 use super::data_file;
-use super::diagnostic::Diagnostics;
 use super::document::Located;
-use super::document::kind::{Choice, Describe, Integer, Kind, Spot, Text};
 use super::document::reader::TableReader;
-use super::document::row::Rows;
-use super::document::row::table;
-use super::document::tree::{Node, Value};
-use super::dynamic::{self, DynamicFile, shift_factors_from_bytes};
+use super::dynamic::{self, DynamicFile, FORMATS, shift_factors_from_bytes};
 use super::keys::material::{
     DYNAMIC_BRANCHES, DYNAMIC_FILE, DYNAMIC_FILES, DYNAMIC_MODULUS, DYNAMIC_REPLICAS, FORMAT,
-    REFERENCE_TEMPERATURE, SEED, SHIFT, SHIFT_FILE, SHIFT_KEYS, VERTICAL_SHIFT,
+    REFERENCE_TEMPERATURE, SEED, SHIFT, SHIFT_FILE, VERTICAL_SHIFT,
 };
 use super::material_temperature::AtTemperature;
 use crate::material::dynamic::master_curve::ShiftChoice;
 use crate::material::dynamic::{Characterisation, Choices, characterise};
+use crate::quantity::block::Field as _;
+use crate::quantity::key::{Key, Kind, words_of};
+use crate::quantity::rows::{Rows, table};
+use crate::quantity::setting::Value;
 
 /// Measured storage and loss moduli, and what was made of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,12 +42,13 @@ impl DynamicFit {
 
 /// Reads the block and makes master curve, series and replicas of its data. `None` where a problem was reported.
 pub(super) fn read(mut table: TableReader<'_>) -> Option<Arc<DynamicFit>> {
-    let files = match table.one_of(&[(&DYNAMIC_FILE as _, true), (&DYNAMIC_FILES as _, false)]) {
+    let files = match table.one_of(&[(&DYNAMIC_FILE, true), (&DYNAMIC_FILES, false)]) {
         Some(true) => table.read(&DYNAMIC_FILE).map(|file| vec![file]),
-        Some(false) => table.value(&DYNAMIC_FILES),
+        Some(false) => several(&mut table),
         None => None,
     };
-    let (format, kind) = (table.value(&FORMAT), table.value(&DYNAMIC_MODULUS));
+    let format = table.chosen(&FORMAT, &FORMATS);
+    let kind = table.value(&DYNAMIC_MODULUS);
     let choices = choices(&mut table);
     let (place, folder, problems) = (table.as_ref().clone(), table.folder(), table.problems());
     table.finish();
@@ -72,128 +69,62 @@ pub(super) fn read(mut table: TableReader<'_>) -> Option<Arc<DynamicFit>> {
     }))
 }
 
+/// The names of several files, each with its place.
+fn several(table: &mut TableReader<'_>) -> Option<Vec<Located<String>>> {
+    let files: Located<Vec<String>> = table.read(&DYNAMIC_FILES)?;
+    let places = table.places_in(DYNAMIC_FILES.name).into_iter();
+    let named = files.value.into_iter().zip(places);
+    let named = named.map(|(value, location)| Located {
+        value,
+        path: files.path.clone(),
+        location,
+    });
+    Some(named.collect())
+}
+
 fn choices(table: &mut TableReader<'_>) -> Option<Choices> {
     let reference = table.value(&REFERENCE_TEMPERATURE);
-    let shift = table.value(&SHIFT).and_then(|shift| match shift {
-        None => Some(ShiftChoice::Free),
-        Some(ShiftValue::Word(choice)) => Some(choice),
-        Some(ShiftValue::File(file)) => {
+    let shift = match table.parsed(&SHIFT) {
+        None => table.chosen(&SHIFT, ShiftChoice::WORDS),
+        Some(_) => table.table(&SHIFT).and_then(|mut table| {
+            let file: Option<Located<String>> = table.read(&SHIFT_FILE);
             let (folder, problems) = (table.folder(), table.problems());
-            let factors = data_file::made_of(&file, folder, problems, shift_factors_from_bytes);
-            factors.map(ShiftChoice::Given)
-        }
-    });
+            table.finish();
+            let factors = data_file::made_of(&file?, folder, problems, shift_factors_from_bytes);
+            factors.map(|factors| Some(ShiftChoice::Given(factors)))
+        }),
+    };
     let vertical = table.value(&VERTICAL_SHIFT);
-    let branches = table.value(&DYNAMIC_BRANCHES);
+    let branches = number_of_branches(table, &DYNAMIC_BRANCHES);
     let (replicas, seed) = (table.value(&DYNAMIC_REPLICAS), table.value(&SEED));
     Some(Choices {
         reference_temperature_k: reference?,
-        shift: shift?,
+        shift: shift?.unwrap_or(ShiftChoice::Free),
         vertical_shift: vertical?,
-        branches: branches?.flatten(),
+        branches: branches?,
         replicas: replicas?,
-        seed: seed? as u64,
+        seed: seed?,
     })
 }
 
-const SHIFT_WORDS: Choice<ShiftChoice> = Choice(ShiftChoice::WORDS);
+const SHIFT_WORDS: [&str; ShiftChoice::WORDS.len()] = words_of(ShiftChoice::WORDS);
 
-static SHIFT_TABLE: Rows = table(" Shift factors of a file.", SHIFT_KEYS);
+static SHIFT_TABLE: Rows = table(" Shift factors of a file.", &[&[SHIFT_FILE]]);
 
 /// How isotherms are shifted: a word, or a table that names a file.
-pub(crate) struct Shift;
-
-/// What stands under `shift`.
-#[derive(Debug, Clone)]
-pub(crate) enum ShiftValue {
-    Word(ShiftChoice),
-    File(Located<String>),
-}
-
-impl Describe for Shift {
-    fn expected(&self) -> String {
-        format!("{}, or a table with a file", SHIFT_WORDS.expected())
-    }
-
-    fn example(&self) -> String {
-        SHIFT_WORDS.example()
-    }
-
-    fn schema(&self) -> Json {
-        json!({ "anyOf": [SHIFT_WORDS.schema(), SHIFT_TABLE.schema()] })
-    }
-
-    fn words(&self) -> Vec<&'static str> {
-        SHIFT_WORDS.words()
-    }
-
-    fn rows(&self) -> Option<&'static Rows> {
-        Some(&SHIFT_TABLE)
-    }
-}
-
-impl Kind for Shift {
-    type Value = ShiftValue;
-
-    fn written(&self, value: &ShiftValue) -> Json {
-        match value {
-            ShiftValue::Word(word) => SHIFT_WORDS.written(word),
-            ShiftValue::File(file) => json!({ "file": Text.written(&file.value) }),
-        }
-    }
-
-    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<ShiftValue, Diagnostics> {
-        let Value::Table(table) = &node.value else {
-            return SHIFT_WORDS.convert(node, spot).map(ShiftValue::Word);
-        };
-        spot.read_table(table, node, |mut table| {
-            let file = table.read(&SHIFT_FILE);
-            table.finish();
-            file.map(ShiftValue::File)
-        })
-    }
-}
+pub(super) const SHIFT_KIND: Kind = Kind::Either(
+    &Kind::Word(&SHIFT_WORDS),
+    &Kind::Table(&SHIFT_TABLE),
+    " with a file",
+);
 
 /// A number of branches, or `auto`.
-pub(crate) struct Branches(pub(crate) RangeInclusive<usize>);
-
-const AUTO: Choice<()> = Choice(&[("auto", ())]);
-
-impl Branches {
-    fn number(&self) -> Integer {
-        Integer(self.0.clone())
-    }
+pub(super) const fn branches(number: &'static Kind) -> Kind {
+    Kind::Either(&Kind::Word(&["auto"]), number, "")
 }
 
-impl Describe for Branches {
-    fn expected(&self) -> String {
-        format!("{}, or {}", AUTO.expected(), self.number().expected())
-    }
-
-    fn example(&self) -> String {
-        AUTO.example()
-    }
-
-    fn schema(&self) -> Json {
-        json!({ "anyOf": [AUTO.schema(), self.number().schema()] })
-    }
-
-    fn words(&self) -> Vec<&'static str> {
-        AUTO.words()
-    }
-}
-
-impl Kind for Branches {
-    type Value = Option<usize>;
-
-    fn written(&self, value: &Option<usize>) -> Json {
-        value.map_or_else(|| AUTO.written(&()), |number| json!(number))
-    }
-
-    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<Option<usize>, Diagnostics> {
-        match &node.value {
-            Value::Text(_) => AUTO.convert(node, spot).map(|()| None),
-            _ => self.number().convert(node, spot).map(Some),
-        }
-    }
+/// The number of branches under such a key, where it is asked for; `None` where a problem was reported.
+pub(super) fn number_of_branches(table: &mut TableReader<'_>, key: &Key) -> Option<Option<usize>> {
+    let found: Option<Value> = table.value(key)?;
+    Some(found.and_then(usize::of))
 }

@@ -1,12 +1,8 @@
 //! `[material.fractional]`: a fractional model as the series that represents it over a band.
 
-use super::diagnostic::Problems;
-use super::document::Located;
+use super::document::block;
 use super::document::reader::TableReader;
-use super::keys::fractional::{
-    BAND, FRACTIONAL_ACCURACY_KEY, FRACTIONAL_EXPONENT, FRACTIONAL_KIND, FRACTIONAL_MODEL,
-    FRACTIONAL_TIME, FractionalModel, SECOND_EXPONENT, STIFFNESS,
-};
+use super::keys::fractional::{FRACTIONAL_MODEL, FractionalKeys, FractionalModel, SECOND_EXPONENT};
 use super::keys::material::EQUILIBRIUM;
 use crate::material::fractional::{Fractional, FractionalError, Represented};
 use crate::material::{Compressibility, Material, MaterialError};
@@ -15,43 +11,41 @@ use crate::material::{Compressibility, Material, MaterialError};
 pub(super) fn read(
     table: &mut TableReader<'_>,
 ) -> Option<impl FnOnce(Compressibility) -> Result<Material, MaterialError> + use<>> {
-    let model = table.read(&FRACTIONAL_MODEL);
-    let kind = table.value(&FRACTIONAL_KIND);
-    let (stiffness, time) = (table.value(&STIFFNESS), table.value(&FRACTIONAL_TIME));
-    let exponent = table.read(&FRACTIONAL_EXPONENT);
-    let (band, accuracy) = (table.read(&BAND), table.value(&FRACTIONAL_ACCURACY_KEY));
-    let model = model?.value;
-    let mut equilibrium = Some(0.0);
-    let mut second_exponent = Some(0.0);
+    let model = table.value(&FRACTIONAL_MODEL);
+    let keys: Option<FractionalKeys> = block::read_from(table, None);
+    let model = model?;
+    let (mut equilibrium_pa, mut second_exponent) = (Some(0.0), Some(0.0));
     match model {
         FractionalModel::Springpot => {}
-        FractionalModel::Zener => equilibrium = table.value(&EQUILIBRIUM),
+        FractionalModel::Zener => equilibrium_pa = table.value(&EQUILIBRIUM),
         FractionalModel::Maxwell => second_exponent = table.value(&SECOND_EXPONENT),
     }
-    let (stiffness, time, exponent) = (stiffness?, time?, exponent?);
+    let keys = keys?;
+    let (stiffness_pa, time_s, exponent) = (keys.stiffness_pa, keys.time_s, keys.exponent);
     let made = match model {
-        FractionalModel::Springpot => Fractional::springpot(stiffness, time, exponent.value),
-        FractionalModel::Zener => Fractional::zener(equilibrium?, stiffness, time, exponent.value),
+        FractionalModel::Springpot => Fractional::springpot(stiffness_pa, time_s, exponent),
+        FractionalModel::Zener => {
+            Fractional::zener(equilibrium_pa?, stiffness_pa, time_s, exponent)
+        }
         FractionalModel::Maxwell => {
-            Fractional::maxwell(stiffness, time, exponent.value, second_exponent?)
+            Fractional::maxwell(stiffness_pa, time_s, exponent, second_exponent?)
         }
     };
-    let problems = table.problems();
-    let (made, kind) = (problems.accept(&exponent, made)?, kind?);
-    let represented = represent(&made, &band?, accuracy?, problems)?;
-    Some(move |nu| represented.material(kind, nu))
+    let place = table.value_place("exponent")?;
+    let made = table.problems().accept(&place, made)?;
+    let represented = represent(table, &made, &keys)?;
+    Some(move |nu| represented.material(keys.kind, nu))
 }
 
 fn represent(
+    table: &mut TableReader<'_>,
     model: &Fractional,
-    band: &Located<Vec<Located<f64>>>,
-    accuracy: f64,
-    problems: &Problems,
+    keys: &FractionalKeys,
 ) -> Option<Represented> {
-    let [low, high] = band.value.as_slice() else {
+    let [low, high] = keys.band_rad_per_s[..] else {
         return None;
     };
-    match model.represent((low.value, high.value), accuracy) {
+    match model.represent((low, high), keys.accuracy) {
         Ok(represented) => Some(represented),
         Err(error) => {
             let help = match error {
@@ -61,7 +55,8 @@ fn represent(
                 }
                 _ => "write the lowest frequency first: band = [\"1e-3 rad/s\", \"1e5 rad/s\"]",
             };
-            problems.at(band, error.to_string()).help(help);
+            let place = table.value_place("band")?;
+            table.problems().at(&place, error.to_string()).help(help);
             None
         }
     }

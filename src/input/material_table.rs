@@ -1,8 +1,8 @@
 //! The `[material.table]` block: measured data, from a CSV file or written out.
 
 use super::data_file;
+use super::document::Located;
 use super::document::reader::TableReader;
-use super::document::{Located, plain};
 use super::keys::material::{
     EVALUATION, Evaluation, FILE, FLOW, QUANTITY, TABLE_MODULUS, TIMES, VALUES,
 };
@@ -36,7 +36,8 @@ pub(crate) fn read(table: &mut TableReader<'_>, direct_sum: DirectSum) -> Option
     let problems = table.problems();
     let source = table.one_of(&[(&FILE, true), (&TIMES, false)]);
     let (function, kind) = (table.value(&QUANTITY), table.value(&TABLE_MODULUS));
-    let (evaluation, flow) = (table.read(&EVALUATION), table.read(&FLOW));
+    let evaluation: Option<Located<Evaluation>> = table.read(&EVALUATION);
+    let flow = table.read_if(&FLOW);
     if let Some(asked) = &evaluation
         && asked.value == Evaluation::Direct
         && direct_sum == DirectSum::Refused
@@ -93,7 +94,7 @@ fn from_file(
     function: Option<MaterialFunction>,
     kind: Option<ModulusKind>,
 ) -> Option<Located<Tabulated>> {
-    let file = table.read(&FILE);
+    let file: Option<Located<String>> = table.read(&FILE);
     let (file, function, kind) = (file?, function?, kind?);
     let parse = |name: &str, bytes: &[u8]| table_file::parse(name, bytes, function, kind);
     let data = data_file::made_of(&file, table.folder(), table.problems(), parse)?;
@@ -106,7 +107,7 @@ fn written_out(
     function: Option<MaterialFunction>,
     kind: Option<ModulusKind>,
 ) -> Option<Located<Tabulated>> {
-    let times = table.read(&TIMES);
+    let times: Option<Located<Vec<f64>>> = table.read(&TIMES);
     let Some(function) = function else {
         // Without the quantity it is not known what the values are; the key is in its place all the same.
         table.has(&VALUES);
@@ -116,25 +117,21 @@ fn written_out(
         MaterialFunction::Creep => Dimension::Compliance,
         MaterialFunction::Relaxation => Dimension::Stress,
     };
-    let values = table.read(&VALUES.of(dimension));
+    table.choose(dimension);
+    let values: Option<Located<Vec<f64>>> = table.read(&VALUES);
     let (times, values, kind) = (times?, values?, kind?);
-    match Tabulated::new(
-        function,
-        kind,
-        plain(times.value.clone()),
-        plain(values.value.clone()),
-    ) {
+    match Tabulated::new(function, kind, times.value.clone(), values.value) {
         Ok(data) => Some(times.map(|_| data)),
         Err(error) => {
             let place = error.place().and_then(|(row, column)| {
                 let list = match column {
-                    TableColumn::Time => &times,
-                    TableColumn::Value => &values,
+                    TableColumn::Time => TIMES,
+                    TableColumn::Value => VALUES,
                 };
-                list.value.get(row - 1).map(|entry| &entry.location)
+                table.places_in(list.name).into_iter().nth(row - 1)
             });
-            let place = place.unwrap_or(&values.location);
-            table.problems().at(place, error.to_string());
+            let place = place.unwrap_or(values.location);
+            table.problems().at(&place, error.to_string());
             None
         }
     }

@@ -2,15 +2,14 @@
 
 use super::diagnostic::Location;
 use super::document::reader::TableReader;
-use super::document::{Located, plain};
+use super::document::{Located, block};
 use super::keys::material::{
-    BRANCH_MODULUS, EQUILIBRIUM, ISOTHERM_ACTIVATION_ENERGY, ISOTHERM_TEMPERATURE, ISOTHERM_WLF,
-    ISOTHERMS, MEASURED_TEMPERATURES, MODULUS, RELAXATION_BRANCHES, REPLICA_EQUILIBRIUM,
-    REPLICA_MODULI, REPLICA_TIMES, REPLICAS, TEMPERATURE,
+    self, EQUILIBRIUM, ISOTHERMS, MEASURED_TEMPERATURES, MODULUS, RELAXATION_BRANCHES, REPLICAS,
+    Replica, TEMPERATURE,
 };
 use super::material_block::{branches, measured_window};
 use crate::material::dynamic::shift_law::{Arrhenius, Wlf};
-use crate::material::{Material, MaterialError, ModulusKind, Origin, Relaxation, RelaxationBranch};
+use crate::material::{Material, ModulusKind, Origin, Relaxation, RelaxationBranch};
 use crate::quantity::celsius;
 
 /// A material at a temperature (K), or at the one that counts where none is asked for, with this Poisson ratio; else why there is none.
@@ -25,7 +24,7 @@ pub(super) fn read(
     axis: Option<&Located<Vec<f64>>>,
     place: &Location,
 ) -> Option<(Material, Vec<Material>)> {
-    let (own, problems) = (block.read(&TEMPERATURE), block.problems());
+    let (own, problems) = (block.read_if(&TEMPERATURE), block.problems());
     let (known, poisson_ratio, own) = (known?, poisson_ratio?, own?);
     let material = |temperature_k: Option<f64>, place: &Location| {
         problems.accept(place, known(temperature_k, poisson_ratio))
@@ -53,33 +52,27 @@ pub(super) fn refuse(block: &mut TableReader<'_>, axis: Option<&Located<Vec<f64>
     false
 }
 
-/// A Prony series.
-pub(super) fn prony(
-    equilibrium_pa: f64,
-    branches: impl IntoIterator<Item = (f64, f64)>,
-) -> Result<Relaxation, MaterialError> {
-    let branch = |(modulus_pa, time_s)| RelaxationBranch { modulus_pa, time_s };
-    Relaxation::new(equilibrium_pa, branches.into_iter().map(branch).collect())
-}
-
 /// The replicas of a series.
 pub(super) fn replicas(table: &mut TableReader<'_>) -> Option<Vec<Relaxation>> {
-    table.optional_tables(&REPLICAS, |mut table| {
+    let replicas = table.tables(&REPLICAS, |mut table| {
         let (place, problems) = (table.as_ref().clone(), table.problems());
-        let equilibrium = table.value(&REPLICA_EQUILIBRIUM);
-        let (moduli, times) = (table.read(&REPLICA_MODULI), table.read(&REPLICA_TIMES));
+        let replica: Option<Replica> = block::read_from(&mut table, None);
+        let times_place = table.value_place("times");
         table.finish();
-        let (equilibrium, moduli, times) = (equilibrium?, moduli?, times?);
-        if moduli.value.len() != times.value.len() {
-            let (found, wanted) = (times.value.len(), moduli.value.len());
+        let replica = replica?;
+        let (moduli, times) = (replica.moduli_pa.len(), replica.times_s.len());
+        if moduli != times {
             problems
-                .at(&times, format!("{found} times for {wanted} moduli"))
+                .at(&times_place?, format!("{times} times for {moduli} moduli"))
                 .help("give one time for each modulus");
             return None;
         }
-        let branches = plain(moduli.value).into_iter().zip(plain(times.value));
-        problems.accept(&place, prony(equilibrium, branches))
-    })
+        let branches = replica.moduli_pa.into_iter().zip(replica.times_s);
+        let branches = branches.map(|(modulus_pa, time_s)| RelaxationBranch { modulus_pa, time_s });
+        let series = Relaxation::new(replica.equilibrium_pa, branches.collect());
+        problems.accept(&place, series)
+    });
+    replicas.map(|replicas| replicas.value)
 }
 
 /// A series with its replicas that holds at a temperature, and by its law at others.
@@ -97,18 +90,18 @@ struct Isotherm {
 pub(super) fn isotherms(block: &mut TableReader<'_>) -> Option<AtTemperature> {
     let all = block.tables(&ISOTHERMS, |mut table| {
         let (place, problems) = (table.as_ref().clone(), table.problems());
-        let temperature = table.value(&ISOTHERM_TEMPERATURE);
-        let law = law(&mut table, temperature);
+        let at: Option<material::AtTemperature> = block::read_from(&mut table, None);
+        let law = at.as_ref().map(|at| law(&mut table, at));
         let measured = measured_window(&mut table);
         let isotherms_k = measured_temperatures(&mut table);
         let (kind, equilibrium) = (table.value(&MODULUS), table.value(&EQUILIBRIUM));
-        let branches = branches(&mut table, &RELAXATION_BRANCHES, &BRANCH_MODULUS);
+        let branches = branches(&mut table, &RELAXATION_BRANCHES);
         let replicas = replicas(&mut table);
         table.finish();
-        let relaxation = problems.accept(&place, prony(equilibrium?, branches?));
+        let relaxation = problems.accept(&place, Relaxation::new(equilibrium?, branches?));
         Some(Isotherm {
-            temperature_k: temperature?,
-            law: law?,
+            temperature_k: at?.temperature_k,
+            law: law??,
             measured_window_s: measured?,
             isotherms_k: isotherms_k?,
             kind: kind?,
@@ -145,13 +138,13 @@ pub(super) fn shifting(material: &Material) -> Option<AtTemperature> {
 
 /// The temperatures (K) of a `measured_temperatures`, where there is one; `None` where a problem was reported.
 fn measured_temperatures(table: &mut TableReader<'_>) -> Option<Option<(f64, f64)>> {
-    let Some(ends) = table.read(&MEASURED_TEMPERATURES)? else {
+    let Some(ends) = table.read_if::<Vec<f64>>(&MEASURED_TEMPERATURES)? else {
         return Some(None);
     };
-    if let [lowest, highest] = ends.value.as_slice()
-        && highest.value >= lowest.value
+    if let [lowest, highest] = ends.value[..]
+        && highest >= lowest
     {
-        return Some(Some((lowest.value, highest.value)));
+        return Some(Some((lowest, highest)));
     }
     let what = "`measured_temperatures` takes the lowest and the highest temperature of the test";
     let report = table.problems().at(&ends, what);
@@ -159,34 +152,31 @@ fn measured_temperatures(table: &mut TableReader<'_>) -> Option<Option<(f64, f64
     None
 }
 
-/// The law by which a series at this temperature (K) shifts.
-fn law(table: &mut TableReader<'_>, temperature_k: Option<f64>) -> Option<Option<Wlf>> {
-    let wlf = table.read(&ISOTHERM_WLF);
-    let energy = table.read(&ISOTHERM_ACTIVATION_ENERGY);
-    let reference_temperature_k = temperature_k?;
-    Some(match (wlf?, energy?) {
-        (Some(wlf), Some(energy)) => {
+/// The law by which a series at this temperature shifts; `None` where a problem was reported.
+fn law(table: &mut TableReader<'_>, at: &material::AtTemperature) -> Option<Option<Wlf>> {
+    let reference_temperature_k = at.temperature_k;
+    Some(match (at.wlf.as_deref(), at.activation_energy) {
+        (Some(_), Some(_)) => {
+            let [wlf, energy] = ["wlf", "activation_energy"].map(|key| table.value_place(key));
             (table.problems())
-                .at(&energy, "a series shifts by one law")
-                .label(&wlf, "another")
+                .at(&energy?, "a series shifts by one law")
+                .label(&wlf?, "another")
                 .help("keep one of them");
             return None;
         }
-        (Some(wlf), None) => match wlf.value.as_slice() {
-            [c1, c2_k] => Some(Wlf {
-                reference_temperature_k,
-                c1: c1.value,
-                c2_k: c2_k.value,
-                c1_error: 0.0,
-                c2_error_k: 0.0,
-            }),
-            // The key has two entries.
-            _ => None,
-        },
-        (None, Some(energy)) => {
+        (Some(&[c1, c2_k]), None) => Some(Wlf {
+            reference_temperature_k,
+            c1,
+            c2_k,
+            c1_error: 0.0,
+            c2_error_k: 0.0,
+        }),
+        // The key has two entries.
+        (Some(_), None) => None,
+        (None, Some(activation_energy_j_per_mol)) => {
             let law = Arrhenius {
                 reference_temperature_k,
-                activation_energy_j_per_mol: energy.value,
+                activation_energy_j_per_mol,
                 activation_energy_error_j_per_mol: 0.0,
             };
             Some(law.into())
@@ -211,9 +201,11 @@ impl Isotherm {
             ));
         }
         let shifted = |series: &Relaxation| {
-            let branches = series.branches().iter();
-            let branches = branches.map(|b| (b.modulus_pa, a_t * b.time_s));
-            let shifted = prony(series.equilibrium_modulus(), branches);
+            let branches = series.branches().iter().map(|branch| RelaxationBranch {
+                time_s: a_t * branch.time_s,
+                ..*branch
+            });
+            let shifted = Relaxation::new(series.equilibrium_modulus(), branches.collect());
             shifted.and_then(|series| Material::from_relaxation(series, self.kind, poisson_ratio))
         };
         let replicas: Result<_, _> = self.replicas.iter().map(shifted).collect();

@@ -33,7 +33,6 @@ mod adhesion_block;
 mod assignment;
 pub(crate) mod axis;
 mod bodies_block;
-mod bulk_modulus;
 pub(crate) mod data_file;
 pub mod diagnostic;
 pub mod document;

@@ -3,13 +3,14 @@
 use serde_json::{Value as Json, json};
 
 use super::diagnostic::{Diagnostic, Diagnostics};
-use super::document::kind::{Array, Describe, Kind, Number, Spot, list};
-use super::document::plain;
+use super::document::kind::{Asked, Describe};
 use super::document::reader::TableReader;
-use super::document::row::table;
-use super::document::row::{Row, Rows};
-use super::document::tree::{Node, Value};
-use super::keys::drive::{FROM, POINTS, RANGE_KEYS, SPACING, TO};
+use super::document::row;
+use super::document::tree::Value;
+use super::keys::drive::{FROM, POINTS, SPACING, TO};
+use crate::quantity::block::Field;
+use crate::quantity::key::{Entries, Key, Kind, Number};
+use crate::quantity::rows::Rows;
 use crate::sweep::plan::SweepPlan;
 use contact_dma_core::words;
 
@@ -22,106 +23,77 @@ words! {
     }
 }
 
-static RANGE: Rows = table(
-    " A range in place of a list; `from` and `to` are what an entry of the list would be.",
-    RANGE_KEYS,
-);
+/// What a JSON Schema says of points of this kind, or of a range with these keys.
+pub(super) fn schema(number: &Number, range: &Rows) -> Json {
+    let points = json!({ "type": "array", "items": number.schema(), "minItems": 1, "maxItems": MOST_POINTS });
+    let mut range = row::schema(range);
+    for end in [FROM, TO] {
+        let means = range["properties"][end.name]["description"].take();
+        range["properties"][end.name] = number.schema();
+        range["properties"][end.name]["description"] = means;
+    }
+    json!({ "anyOf": [number.schema(), points, range] })
+}
 
 /// Points of this kind, ascending, each once.
-pub(crate) struct Points(pub(crate) Number);
-
-impl Describe for Points {
-    fn expected(&self) -> String {
-        format!("a list or a range, each {}", self.0.expected())
-    }
-
-    fn example(&self) -> String {
-        format!("[{}]", self.0.example())
-    }
-
-    fn schema(&self) -> Json {
-        let points = json!({ "type": "array", "items": self.0.schema(), "minItems": 1, "maxItems": MOST_POINTS });
-        let mut range = RANGE.schema();
-        for end in [&FROM, &TO] {
-            let means = range["properties"][end.name]["description"].take();
-            range["properties"][end.name] = self.0.schema();
-            range["properties"][end.name]["description"] = means;
+pub(super) fn read(asked: &Asked<'_>, number: &Number) -> Result<Vec<f64>, Diagnostics> {
+    let Asked { node, spot, .. } = *asked;
+    match &node.value {
+        Value::Table(table) => spot.read_table(table, node, |table| of_range(table, number)),
+        Value::Array(items) if items.is_empty() => {
+            let example = format!("{} = [{}]", spot.key.unwrap_or_default(), number.example());
+            let problem = Diagnostic::at(&node.location, "the sweep is empty");
+            let help = format!("give at least one point, for example {example}");
+            Err(problem.help(help).into())
         }
-        json!({ "anyOf": [self.0.schema(), points, range] })
-    }
-
-    fn rows(&self) -> Option<&'static Rows> {
-        Some(&RANGE)
-    }
-}
-
-impl Kind for Points {
-    type Value = Vec<f64>;
-
-    fn written(&self, values: &Vec<f64>) -> Json {
-        json!(values)
-    }
-
-    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<Vec<f64>, Diagnostics> {
-        match &node.value {
-            Value::Table(table) => spot.read_table(table, node, |table| self.range(table)),
-            Value::Array(items) if items.is_empty() => {
-                let example = format!("{} = {}", spot.key.unwrap_or_default(), self.example());
-                let problem = Diagnostic::at(&node.location, "the sweep is empty");
-                let help = format!("give at least one point, for example {example}");
-                Err(problem.help(help).into())
-            }
-            _ => {
-                let distinct = Array {
-                    entries: 1..=MOST_POINTS,
-                    repeats: false,
-                    ..list(self.0)
-                };
-                let mut points = plain(distinct.convert(node, spot)?);
-                points.sort_by(f64::total_cmp);
-                Ok(points)
-            }
+        _ => {
+            let distinct = Entries {
+                repeats: false,
+                ..Entries::of(1..=MOST_POINTS, "")
+            };
+            let kind = &Kind::Numbers(*number, distinct);
+            let mut points = Vec::of(Asked { kind, node, spot }.read()?).unwrap_or_default();
+            points.sort_by(f64::total_cmp);
+            Ok(points)
         }
     }
 }
 
-impl Points {
-    fn range(&self, mut table: TableReader<'_>) -> Option<Vec<f64>> {
-        let problems = table.problems();
-        let end = |row: &Row<Number, _>| Row {
-            kind: self.0,
-            ..*row
-        };
-        let (from, to) = (table.read(&end(&FROM)), table.read(&end(&TO)));
-        let (points, spacing) = (table.read(&POINTS), table.value(&SPACING));
-        table.finish();
-        let (from, to, points) = (from?, to?, points?);
-        if points.value == 1 && to.value == from.value {
-            return Some(vec![from.value]);
-        }
-        if to.value <= from.value {
-            problems
-                .at(&to, "the sweep ends before it begins")
-                .because("not above the first point")
-                .label(&from, "its first point");
-            return None;
-        }
-        if points.value < 2 {
-            problems
-                .at(&points, "a range needs at least 2 points, its two ends")
-                .help("for one point write a list with one entry");
-            return None;
-        }
-        let spacing = spacing?;
-        if spacing == Spacing::Logarithmic && from.value <= 0.0 {
-            problems
-                .at(&from, "points on a logarithmic scale begin above zero")
-                .because("zero or below")
-                .help("begin above zero, or add spacing = \"linear\" to the range");
-            return None;
-        }
-        Some(spaced(from.value, to.value, points.value, spacing))
+fn of_range(mut table: TableReader<'_>, number: &Number) -> Option<Vec<f64>> {
+    let problems = table.problems();
+    let end = |key: Key| Key {
+        kind: Kind::Number(*number),
+        ..key
+    };
+    let (from, to) = (table.read(&end(FROM)), table.read(&end(TO)));
+    let (points, spacing) = (table.read(&POINTS), table.value(&SPACING));
+    table.finish();
+    let (from, to, points) = (from?, to?, points?);
+    if points.value == 1 && to.value == from.value {
+        return Some(vec![from.value]);
     }
+    if to.value <= from.value {
+        problems
+            .at(&to, "the sweep ends before it begins")
+            .because("not above the first point")
+            .label(&from, "its first point");
+        return None;
+    }
+    if points.value < 2 {
+        problems
+            .at(&points, "a range needs at least 2 points, its two ends")
+            .help("for one point write a list with one entry");
+        return None;
+    }
+    let spacing = spacing?;
+    if spacing == Spacing::Logarithmic && from.value <= 0.0 {
+        problems
+            .at(&from, "points on a logarithmic scale begin above zero")
+            .because("zero or below")
+            .help("begin above zero, or add spacing = \"linear\" to the range");
+        return None;
+    }
+    Some(spaced(from.value, to.value, points.value, spacing))
 }
 
 /// `points` values from `from` to `to`, both exact.

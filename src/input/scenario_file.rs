@@ -6,7 +6,6 @@ use super::document::{Document, Located, block};
 use super::figures_block::{self, Figures};
 use super::given::Given;
 use super::keys;
-use super::keys::settings::TIME_STEP;
 use super::material_table::DirectSum;
 use super::{bodies_block, material_block, segments_block, solver_block};
 use crate::drive::SegmentedDrive;
@@ -14,11 +13,23 @@ use crate::engine::{EngineKind, SolverPlan};
 use crate::figures::elastic::ElasticScale;
 use crate::indenter::Indenter;
 use crate::material::Material;
+use crate::quantity::Dimension::Time;
+use crate::quantity::key::{Kind, quantity};
 use crate::quantity::{Dimension, format_human};
 use crate::simulation::body_material::BodyMaterial;
 use crate::simulation::scenario::{OutputPlan, ScenarioPlan};
 use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::figures::FigurePlan;
+use contact_dma_core::block;
+
+block! {
+    /// Time steps of a history.
+    pub(crate) struct TimePlan in "time" {
+        /// Time step; left out: chosen from drive and material.
+        step_s: Option<f64> = None => "step",
+            Kind::Number(quantity(Time).above_zero().or_else("leave it out, and steps are chosen from drive and material"));
+    }
+}
 
 /// The plan that a scenario file asks for.
 ///
@@ -51,7 +62,8 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Dia
             let area_m2 = indenter.as_deref().and_then(Indenter::period_area_m2);
             segments_block::read(t, pull_off_n, area_m2)
         });
-        let step_s = root.table_or(&keys::TIME, None, time);
+        let time = TimePlan { step_s: None };
+        let time = root.table_or(&keys::TIME, time, |t| block::read(t, None));
         let default = indenter
             .as_deref()
             .map(|indenter| SolverPlan::of(indenter, layer.is_some()));
@@ -71,7 +83,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Dia
             },
             drive: drive?,
             solver: solver?,
-            step_s: step_s?,
+            step_s: time?.step_s,
             output: output?,
             figures: FigurePlan::default(),
         };
@@ -99,13 +111,6 @@ fn for_contact(
             None
         }
     }
-}
-
-/// The time step, where one is given.
-fn time(mut table: TableReader<'_>) -> Option<Option<f64>> {
-    let step_s = table.value(&TIME_STEP);
-    table.finish();
-    step_s
 }
 
 fn output(

@@ -6,20 +6,24 @@ use serde_json::{Map, Value as Json, json};
 
 use super::axis::AxisOf;
 use super::document::kind::text_definitions;
+use super::document::row;
 use super::keys::FileKind;
 use super::keys::drive::LISTED;
+use crate::quantity::key::Kind;
 
 /// The schema of a kind of input file, as the text of a file.
 pub fn text(kind: FileKind) -> String {
-    let mut schema = kind.rows().schema();
+    let mut schema = row::schema(kind.rows());
     schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
     schema["title"] = json!(kind.rows().means.trim());
     if kind == FileKind::Sweep {
         may_be_listed(&mut schema);
     }
     let mut parts = Map::new();
-    kind.rows().visit("", &mut |_, row| {
-        parts.extend(row.kind().axes().into_iter().flat_map(AxisOf::definitions));
+    kind.rows().visit("", &mut |_, key| {
+        if let Kind::Axes(axes) = &key.kind {
+            parts.extend(AxisOf::new(axes).definitions());
+        }
     });
     let referring = format!("{schema}{}", Json::Object(parts.clone()));
     let is_used = |name: &str| referring.contains(&format!("#/$defs/{name}\""));
@@ -261,35 +265,34 @@ fn value_name(value: &Json) -> (String, String) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input::document::kind::{Choice, Number, quantity};
-    use crate::input::document::row::{List, Others, Required, Row, Rows, rows, table};
+    use crate::input::document::row::keys;
     use crate::quantity::Dimension::Length;
+    use crate::quantity::key::quantity;
+    use crate::quantity::rows::{List, Others, Rows, table};
 
-    rows! { _:
+    keys! {
         /// Which of the shapes it is; what every one of them needs is listed below, under its name.
-        FIGURE: Row<Choice<u8>, Required> = "shape", Choice(&[("disc", 0), ("ring", 1), ("square", 2)]), Required;
+        FIGURE = "shape", Kind::Word(&["disc", "ring", "square"]);
         /// The radius of the disc, or the one at the outer edge of the ring, which is the larger of its two.
-        OUTER: Row<Number, Required> = "outer", quantity(Length).above_zero(), Required;
+        OUTER = "outer", Kind::Number(quantity(Length).above_zero());
         /// The radius at the inner edge of the ring, which is the smaller of its two, and may be as small as nothing.
-        INNER: Row<Number, Required> = "inner", quantity(Length).not_negative(), Required;
+        INNER = "inner", Kind::Number(quantity(Length).not_negative());
         /// The length of one side of the square, which is that of the others as well, since they are all alike.
-        SIDE: Row<Number, Required> = "side", quantity(Length).above_zero(), Required;
+        SIDE = "side", Kind::Number(quantity(Length).above_zero());
     }
 
-    const KEYS: List = &[&FIGURE];
-    static DISC: Rows = table(" A disc.", &[&OUTER]);
-    static RING: Rows = table(" A ring.", &[&OUTER, &INNER]);
-    static SQUARE: Rows = table(" A square.", &[&SIDE]);
+    const KEYS: List = &[&[FIGURE]];
+    static DISC: Rows = table(" A disc.", &[&[OUTER]]);
+    static RING: Rows = table(" A ring.", &[&[OUTER, INNER]]);
+    static SQUARE: Rows = table(" A square.", &[&[SIDE]]);
     static TWO: Rows = Rows {
         means: " Two shapes.",
         keys: KEYS,
-        block: &[],
         others: Others::ByWord(&FIGURE, &[("disc", &DISC), ("square", &SQUARE)]),
     };
     static THREE: Rows = Rows {
         means: " Three shapes.",
         keys: KEYS,
-        block: &[],
         others: Others::ByWord(
             &FIGURE,
             &[("disc", &DISC), ("ring", &RING), ("square", &SQUARE)],
@@ -298,7 +301,7 @@ mod tests {
 
     /// The lines of the schema of a table under the key `body`.
     fn lines(rows: &Rows) -> Vec<String> {
-        let body = json!({ "properties": { "body": rows.schema() } });
+        let body = json!({ "properties": { "body": row::schema(rows) } });
         let mut schema = json!({ "properties": body["properties"], "$defs": {} });
         define_longer_parts(&mut schema);
         let text = format!("{schema:#}");

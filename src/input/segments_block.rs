@@ -4,93 +4,75 @@ use std::f64::consts::TAU;
 
 use super::data_file;
 use super::diagnostic::{Location, Problems};
-use super::document::kind::{Array, Dependent, Number, Tables, Text, list, number, quantity};
+use super::document::Located;
 use super::document::reader::TableReader;
-use super::document::row::{Required, Row, Rows, choice, rows, table};
-use super::document::{Located, plain};
+use super::document::row::{choice, keys};
 use super::drive_table;
 use super::harmonic_block::scaled;
-use super::keys::drive::{PHASE, PRESCRIBES, of_prescribed};
+use super::keys::drive::{PHASE, PRESCRIBED, PRESCRIBES};
 use crate::drive::{Control, HistoryError, Segment, SegmentProblem, SegmentedDrive};
-use crate::quantity::Dimension::{self, AngularFrequency, Frequency, Time};
-use crate::quantity::key::Limits;
+use crate::quantity::Dimension::{AngularFrequency, Frequency, Time};
+use crate::quantity::key::{Entries, Kind, number, quantity};
+use crate::quantity::rows::{Rows, table};
 
 /// More segments than this belong into a table.
 const MOST_SEGMENTS: usize = 10_000;
 
-rows! { _:
+keys! {
     /// The segments, one after another; jumps between them are resolved exactly.
-    SEGMENTS: Row<Tables, Required> =
-        "segments",
-        Tables {
-            rows: &SEGMENT,
-            most: MOST_SEGMENTS,
-            instead: ", or a table: { kind = \"table\", file = \"drive.csv\" }",
-        },
-        Required;
+    SEGMENTS = "segments", Kind::Tables(&SEGMENT, MOST_SEGMENTS, ", or a table: { kind = \"table\", file = \"drive.csv\" }");
 }
 
 pub(super) static HISTORY: Rows = table(
     " A history of load or approach, starting at first touch.",
-    &[&PRESCRIBES, &SEGMENTS],
+    &[&[PRESCRIBES, SEGMENTS]],
 );
 
 choice! {
     /// The kind of the segment; what it needs is listed below.
     KIND = "kind", SegmentKind, BY_KIND:
     /// A jump to a constant value.
-    Step = "step": &[&TARGET, &DURATION];
+    Step = "step": &[&[TARGET, DURATION]];
     /// A straight line from the end of the previous segment.
-    Ramp = "ramp": &[&TARGET, &DURATION];
+    Ramp = "ramp": &[&[TARGET, DURATION]];
     /// A polynomial of time.
-    Polynomial = "polynomial": &[&COEFFICIENTS, &DURATION];
+    Polynomial = "polynomial": &[&[COEFFICIENTS, DURATION]];
     /// mean + amplitude sin(omega t + phase): exactly one of `angular_frequency` and `frequency`.
-    Sine = "sine": &[&SINE_MEAN, &SINE_AMPLITUDE, &PHASE, &CYCLES],
-        &[&[&SINE_ANGULAR_FREQUENCY], &[&SINE_FREQUENCY]];
+    Sine = "sine": &[&[SINE_MEAN, SINE_AMPLITUDE, PHASE, CYCLES]],
+        &[&[&[SINE_ANGULAR_FREQUENCY]], &[&[SINE_FREQUENCY]]];
     /// Straight lines between points: a `file`, or `times` and `values`.
-    Table = "table": &[], &[&[&FILE], &[&TIMES, &VALUES]];
+    Table = "table": &[], &[&[&[FILE]], &[&[TIMES, VALUES]]];
 }
 
 static SEGMENT: Rows = Rows {
     means: " A part of the history.",
-    keys: &[&KIND],
-    block: &[],
+    keys: &[&[KIND]],
     others: BY_KIND,
 };
 
-rows! { _:
+keys! {
     /// The value held, or reached at the end.
-    TARGET: Row<Dependent, Required> = "to", of_prescribed(Limits::NONE), Required;
+    TARGET = "to", Kind::Number(PRESCRIBED);
     /// Duration of the segment.
-    DURATION: Row<Number, Required> = "duration", quantity(Time).above_zero(), Required;
+    DURATION = "duration", Kind::Number(quantity(Time).above_zero());
     /// Coefficients of 1, t, t^2, ... in SI units, with t from the start of the segment.
-    COEFFICIENTS: Row<Array<Number>, Required> = "coefficients", list(number("2.0")), Required;
-}
-
-rows! { _:
+    COEFFICIENTS = "coefficients", Kind::Numbers(number("2.0"), Entries::ANY);
     /// Mean.
-    SINE_MEAN: Row<Dependent, Required> = "mean", of_prescribed(Limits::NONE), Required;
+    SINE_MEAN = "mean", Kind::Number(PRESCRIBED);
     /// Amplitude.
-    SINE_AMPLITUDE: Row<Dependent, Required> = "amplitude", of_prescribed(Limits::ABOVE_ZERO), Required;
+    SINE_AMPLITUDE = "amplitude", Kind::Number(PRESCRIBED.above_zero());
     /// Number of cycles, not necessarily whole.
-    CYCLES: Row<Number, Required> = "cycles", number("4.0").above_zero(), Required;
-}
-
-rows! { _:
+    CYCLES = "cycles", Kind::Number(number("4.0").above_zero());
     /// Angular frequency; Hz is accepted too.
-    SINE_ANGULAR_FREQUENCY: Row<Number, Required> =
-        "angular_frequency", quantity(AngularFrequency).above_zero(), Required;
+    SINE_ANGULAR_FREQUENCY = "angular_frequency", Kind::Number(quantity(AngularFrequency).above_zero());
     /// Frequency; rad/s is accepted too.
-    SINE_FREQUENCY: Row<Number, Required> = "frequency", quantity(Frequency).above_zero(), Required;
-}
-
-rows! { _:
+    SINE_FREQUENCY = "frequency", Kind::Number(quantity(Frequency).above_zero());
     /// CSV file with the columns `time_s` and `load_n` or `approach_m`.
-    FILE: Row<Text, Required> = "file", Text, Required;
+    FILE = "file", Kind::Text;
     /// Times, in place of a file; the first is 0 s, two equal ones are a jump.
-    TIMES: Row<Array<Number>, Required> = "times", list(quantity(Time)), Required;
+    TIMES = "times", Kind::Numbers(quantity(Time), Entries::ANY);
     /// Their values.
-    VALUES: Row<Array<Dependent>, Required> = "values", list(of_prescribed(Limits::NONE)), Required;
+    VALUES = "values", Kind::Numbers(PRESCRIBED, Entries::ANY);
 }
 
 /// Reads the block; `None` where a problem was reported. `pull_off_n` is the attraction (N) of an indenter under such a control, `None`
@@ -105,7 +87,6 @@ pub(super) fn read(
     let control = prescribed.control();
     let reader = Reader {
         control,
-        dimension: prescribed.dimension(),
         factor: factor.unwrap_or(1.0),
     };
     let all = table.tables(&SEGMENTS, |segment| reader.segment(segment));
@@ -145,9 +126,7 @@ type Placed = (Segment, Location);
 
 struct Reader {
     control: Control,
-    /// Of the drive's values.
-    dimension: Dimension,
-    /// What these are multiplied by.
+    /// What the drive's values are multiplied by.
     factor: f64,
 }
 
@@ -165,7 +144,7 @@ impl Reader {
     }
 
     fn to(&self, table: &mut TableReader<'_>, kind: SegmentKind) -> Option<Placed> {
-        let to = table.read(&TARGET.of(self.dimension));
+        let to: Option<Located<f64>> = table.read(&TARGET);
         let duration_s = table.value(&DURATION);
         let Located {
             value, location, ..
@@ -179,14 +158,15 @@ impl Reader {
     }
 
     fn sine(&self, table: &mut TableReader<'_>) -> Option<Placed> {
-        let mean = table.value(&SINE_MEAN.of(self.dimension));
-        let amplitude = table.read(&SINE_AMPLITUDE.of(self.dimension));
-        let frequency = table
-            .one_of(&[
-                (&SINE_ANGULAR_FREQUENCY as _, (&SINE_ANGULAR_FREQUENCY, 1.0)),
-                (&SINE_FREQUENCY as _, (&SINE_FREQUENCY, TAU)),
-            ])
-            .and_then(|(row, to_angular)| Some(table.value(row)? * to_angular));
+        let mean: Option<f64> = table.value(&SINE_MEAN);
+        let amplitude: Option<Located<f64>> = table.read(&SINE_AMPLITUDE);
+        let either = [
+            (&SINE_ANGULAR_FREQUENCY, (&SINE_ANGULAR_FREQUENCY, 1.0)),
+            (&SINE_FREQUENCY, (&SINE_FREQUENCY, TAU)),
+        ];
+        let frequency = table.one_of(&either);
+        let frequency =
+            frequency.and_then(|(key, to_angular)| Some(table.value::<f64>(key)? * to_angular));
         let (phase_rad, cycles) = (table.value(&PHASE), table.value(&CYCLES));
         let amplitude = amplitude?;
         let segment = Segment::Sine {
@@ -202,15 +182,15 @@ impl Reader {
     fn table(&self, table: &mut TableReader<'_>) -> Option<Placed> {
         if table.one_of(&[(&FILE, true), (&TIMES, false)])? {
             // Those of a file are loads or approaches, as its header says.
-            let file = table.read(&FILE)?;
+            let file: Located<String> = table.read(&FILE)?;
             let parse = |name: &str, bytes: &[u8]| drive_table::parse(name, bytes, self.control);
             let made = data_file::made_of(&file, table.folder(), table.problems(), parse);
             let (times_s, values) = made?;
             return Some((Segment::Table { times_s, values }, file.location));
         }
         let times = table.value(&TIMES);
-        let values = table.read(&VALUES.of(self.dimension));
-        let (times_s, values) = (plain(times?), values?);
+        let values: Option<Located<Vec<f64>>> = table.read(&VALUES);
+        let (times_s, values) = (times?, values?);
         let segment = Segment::Table {
             times_s,
             values: self.scaled(values.value),
@@ -219,7 +199,7 @@ impl Reader {
     }
 
     fn polynomial(&self, table: &mut TableReader<'_>) -> Option<Placed> {
-        let coefficients = table.read(&COEFFICIENTS);
+        let coefficients: Option<Located<Vec<f64>>> = table.read(&COEFFICIENTS);
         let duration_s = table.value(&DURATION);
         let coefficients = coefficients?;
         let segment = Segment::Polynomial {
@@ -229,8 +209,10 @@ impl Reader {
         Some((segment, coefficients.location))
     }
 
-    fn scaled(&self, values: Vec<Located<f64>>) -> Vec<f64> {
-        let values = values.into_iter();
-        values.map(|located| self.factor * located.value).collect()
+    fn scaled(&self, values: Vec<f64>) -> Vec<f64> {
+        values
+            .into_iter()
+            .map(|value| self.factor * value)
+            .collect()
     }
 }

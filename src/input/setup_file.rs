@@ -4,12 +4,10 @@ use std::sync::Arc;
 
 use super::diagnostic::Diagnostics;
 use super::document::reader::TableReader;
-use super::document::{Document, block, plain};
+use super::document::{Document, block};
 use super::indenter_block;
-use super::keys::material::POISSON_RATIO;
 use super::keys::setup::{
-    AREA_FUNCTION, BIAS, CONTACT, EPSILON, INSTRUMENT, RADIUS_FROM, RadiusFrom, SETUP_INDENTER,
-    SETUP_TITLE,
+    CONTACT, ContactKeys, INSTRUMENT, RadiusFrom, SETUP_INDENTER, SETUP_TITLE,
 };
 use crate::indenter::Indenter;
 use crate::measured::moduli::{Contact, Radius};
@@ -72,27 +70,26 @@ fn contact(
     indenter: Option<Arc<dyn Indenter>>,
     has_indenter: bool,
 ) -> Option<Contact> {
-    let problems = table.problems();
-    let poisson_ratio = table.value(&POISSON_RATIO);
-    let (from, terms) = (table.read(&RADIUS_FROM), table.read(&AREA_FUNCTION));
-    let (epsilon, bias) = (table.value(&EPSILON), table.value(&BIAS));
-    let table_place = table.as_ref().clone();
+    let (table_place, problems) = (table.as_ref().clone(), table.problems());
+    let keys = block::read_from::<ContactKeys>(&mut table, None);
+    let places = ["radius", "area_function"].map(|key| table.value_place(key));
     table.finish();
-    let (from, terms, epsilon) = (from?, terms?, epsilon?);
-    let radius = match (from.value, terms) {
-        (RadiusFrom::AreaFunction, Some(terms)) => Radius::AreaFunction {
-            coefficients: plain(terms.value),
-            epsilon,
+    let keys = keys?;
+    let [from_place, terms_place] = places.map(|place| place.unwrap_or(table_place.clone()));
+    let radius = match (keys.radius, keys.area_function) {
+        (RadiusFrom::AreaFunction, Some(coefficients)) => Radius::AreaFunction {
+            coefficients,
+            epsilon: keys.epsilon,
         },
         (RadiusFrom::AreaFunction, None) => {
             problems
-                .at(&from, "an area function without its coefficients")
+                .at(&from_place, "an area function without its coefficients")
                 .help("add them: area_function = [24.5, 1e-7]");
             return None;
         }
-        (_, Some(terms)) => {
+        (_, Some(_)) => {
             problems
-                .at(&terms, "an area function that is not used")
+                .at(&terms_place, "an area function that is not used")
                 .help("write radius = \"area-function\", or remove `area_function`");
             return None;
         }
@@ -119,11 +116,11 @@ fn contact(
         return None;
     }
     Some(Contact {
-        poisson_ratio: poisson_ratio?,
+        poisson_ratio: keys.poisson_ratio,
         radius,
         indenter,
         indenter_material: None,
-        bias: bias?,
+        bias: keys.bias,
     })
 }
 

@@ -2,10 +2,9 @@
 
 mod conditions;
 
-use super::axis::Swept;
+use super::axis::{self, Swept};
 use super::diagnostic::{Diagnostics, Problems};
 use super::document::reader::TableReader;
-use super::document::row::Row;
 use super::document::{Document, block};
 use super::figures_block::{self, Figures};
 use super::given::Given;
@@ -95,13 +94,9 @@ fn axes(mut table: TableReader<'_>, controlled: Dimension) -> Option<Axes> {
     let pairs = table.value(&PAIRS);
     let mut swept = Vec::new();
     let mut is_whole = true;
-    for row in [&MATERIAL_AXIS, &LAYER_AXIS, &INDENTER_AXIS, &DRIVE_AXIS] {
-        let row = Row {
-            kind: row.kind.of(controlled, pairs.unwrap_or(false)),
-            ..*row
-        };
-        match table.value(&row) {
-            Some(found) => swept.extend(found.into_iter().flatten()),
+    for key in [MATERIAL_AXIS, LAYER_AXIS, INDENTER_AXIS, DRIVE_AXIS] {
+        match axis::read(&mut table, &key, (controlled, pairs.unwrap_or(false))) {
+            Some(found) => swept.extend(found),
             None => is_whole = false,
         }
     }
@@ -179,17 +174,16 @@ fn check_axes(swept: &[Swept], pairs: bool, frequencies: usize, problems: &Probl
 
 /// Angular frequencies in rad/s, ascending, and the unit they are given in.
 fn frequencies(table: &mut TableReader<'_>) -> Option<(Vec<f64>, FrequencyUnit)> {
+    let in_hz = (&FREQUENCY, std::f64::consts::TAU, FrequencyUnit::Hz);
     let keys = [
         (
-            &ANGULAR_FREQUENCY as _,
+            &ANGULAR_FREQUENCY,
             (&ANGULAR_FREQUENCY, 1.0, FrequencyUnit::RadPerS),
         ),
-        (
-            &FREQUENCY as _,
-            (&FREQUENCY, std::f64::consts::TAU, FrequencyUnit::Hz),
-        ),
+        (&FREQUENCY, in_hz),
     ];
     let (row, to_angular, given_in) = table.one_of(&keys)?;
-    let values = table.value(row)?.into_iter();
-    Some((values.map(|value| value * to_angular).collect(), given_in))
+    let values: Vec<f64> = table.value(row)?;
+    let values = values.into_iter().map(|value| value * to_angular);
+    Some((values.collect(), given_in))
 }

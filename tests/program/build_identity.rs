@@ -92,7 +92,7 @@ fn what_makes_no_number_changes_nothing() {
             format!("{text}// more\nconst A: u8 = 1;\n")
         }),
         sources.with("src/core/sweep/plan/figures.rs", |text| {
-            text.replace("titles: true", "titles: false")
+            text.replace("titles: bool = true", "titles: bool = false")
         }),
         sources.with("src/core/sweep/store/error.rs", |text| {
             text.replace("cannot", "can not")

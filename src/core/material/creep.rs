@@ -11,19 +11,25 @@
 //! Theory of Linear Viscoelastic Behavior*, Springer 1989, chapter 3.
 
 use num_complex::Complex;
+use serde::Serialize;
 
 use super::conversion;
 use super::error::{MaterialError, checked_branches, in_range, non_negative, positive};
 use super::harmonic::{Debye, reciprocal};
-use super::relaxation::Relaxation;
+use super::relaxation::{NO_BRANCH, Relaxation};
+use crate::block;
+use crate::quantity::Dimension::{Compliance, Time};
+use crate::quantity::key::{Kind, quantity};
 
-/// One Kelvin element of the series: a spring and a dashpot side by side.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
-pub struct CreepBranch {
-    /// Compliance `D_j` of the spring, in 1/Pa.
-    pub compliance_per_pa: f64,
-    /// Retardation time `lambda_j`, in s.
-    pub time_s: f64,
+block! {
+    /// A branch.
+    #[derive(Copy, Serialize)]
+    pub struct CreepBranch in "branches" {
+        /// Creep compliance of the branch.
+        compliance_per_pa: f64 => "compliance", Kind::Number(quantity(Compliance).above_zero().or_else(NO_BRANCH));
+        /// Relaxation time, or retardation time of a creep series.
+        time_s: f64 => "time", Kind::Number(quantity(Time).above_zero().or_else(NO_BRANCH));
+    }
 }
 
 /// A creep compliance `D(t) = D_0 + sum D_j (1 - exp(-t/lambda_j)) + t/eta`, in 1/Pa.

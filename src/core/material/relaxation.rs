@@ -11,19 +11,28 @@
 //! Linear Viscoelastic Behavior*, Springer 1989, chapter 3.
 
 use num_complex::Complex;
+use serde::Serialize;
 
 use super::conversion;
 use super::creep::Creep;
 use super::error::{MaterialError, checked_branches, in_range, non_negative, positive};
 use super::harmonic::{Debye, reciprocal};
+use crate::block;
+use crate::quantity::Dimension::{Stress, Time};
+use crate::quantity::key::{Kind, quantity};
 
-/// One Maxwell element of the series: a spring and a dashpot in line.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
-pub struct RelaxationBranch {
-    /// Spring `g_i`, in Pa.
-    pub modulus_pa: f64,
-    /// Relaxation time `tau_i`, in s.
-    pub time_s: f64,
+/// What to write where a branch has no strength or no time.
+pub(super) const NO_BRANCH: &str = "write a positive number, or leave the branch out";
+
+block! {
+    /// A branch.
+    #[derive(Copy, Serialize)]
+    pub struct RelaxationBranch in "branches" {
+        /// Modulus of the branch.
+        modulus_pa: f64 => "modulus", Kind::Number(quantity(Stress).above_zero().or_else(NO_BRANCH));
+        /// Relaxation time, or retardation time of a creep series.
+        time_s: f64 => "time", Kind::Number(quantity(Time).above_zero().or_else(NO_BRANCH));
+    }
 }
 
 /// A relaxation modulus `E(t) = g_inf + sum g_i exp(-t/tau_i)`, in Pa.

@@ -1,7 +1,10 @@
 //! Blocks of input files and the words of their keys, each declared once: the struct of a plan, its defaults, its ranges, what is said of
 //! its keys, how it is read and how a resolved file has it.
 
-use super::key::{Key, Kind, Number, Presence, expected_integer, expected_list};
+use std::borrow::Cow;
+
+use super::key::{Key, Kind, Number};
+use super::rows::{Others, Rows};
 use super::setting::{Setting, Table, Value};
 
 /// A block of an input file. [`block!`](crate::block) makes one of a struct.
@@ -11,6 +14,12 @@ pub trait Block: Sized {
     /// What it is about; opens with a blank.
     const MEANS: &'static str;
     const KEYS: &'static [Key];
+    /// Its keys as those of a table that has no others.
+    const ROWS: Rows = Rows {
+        means: Self::MEANS,
+        keys: &[Self::KEYS],
+        others: Others::None,
+    };
 
     /// What stands in a table; `None` where a problem was reported. A key that is not there has the value of `given`, where something is
     /// given, and its default where not.
@@ -94,53 +103,6 @@ pub enum Refused {
     Conflict(String),
 }
 
-impl Kind {
-    /// What is expected, with its article.
-    pub fn expected(&self) -> String {
-        match self {
-            Self::Flag => "`true` or `false`".to_owned(),
-            Self::Integer(range) => expected_integer(range),
-            Self::Number(number) => number.expected(),
-            Self::Word(words) => alternatives(words),
-            Self::Numbers(number, entries) => expected_list(&number.expected(), &entries.number),
-            Self::Words(words, entries) => expected_list(&alternatives(words), &entries.number),
-        }
-    }
-
-    /// Whether a value is one of these.
-    fn has(&self, value: &Value) -> bool {
-        let fits =
-            |found: &f64, number: &Number| found.is_finite() && number.limits.contains(*found);
-        match (self, value) {
-            (Self::Integer(range), Value::Integer(found)) => {
-                usize::try_from(*found).is_ok_and(|found| range.contains(&found))
-            }
-            (
-                Self::Number(number),
-                Value::Number(found) | Value::Tolerance(found) | Value::Quantity(found, _),
-            ) => fits(found, number),
-            (
-                Self::Numbers(number, entries),
-                Value::Numbers(found) | Value::Quantities(found, _),
-            ) => {
-                entries.number.contains(&found.len())
-                    && found.iter().all(|found| fits(found, number))
-            }
-            _ => true,
-        }
-    }
-}
-
-/// `"a", "b" or "c"`.
-pub fn alternatives(words: &[&str]) -> String {
-    let words: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
-    match words.split_last() {
-        Some((last, [])) => last.clone(),
-        Some((last, others)) => format!("{} or {last}", others.join(", ")),
-        None => "absent".to_owned(),
-    }
-}
-
 /// What a key's value is in a plan.
 pub trait Field: Sized {
     /// As a resolved file has it; `None` where there is nothing to write.
@@ -148,6 +110,22 @@ pub trait Field: Sized {
 
     /// What was read under a key of a fitting kind.
     fn of(value: Value) -> Option<Self>;
+
+    /// What counts where nothing stands under the key and nothing else is said.
+    fn absent() -> Option<Self> {
+        None
+    }
+}
+
+/// Either of two kinds.
+impl Field for Value {
+    fn written(&self, _: &Kind) -> Option<Value> {
+        Some(self.clone())
+    }
+
+    fn of(value: Value) -> Option<Self> {
+        Some(value)
+    }
 }
 
 impl Field for usize {
@@ -156,10 +134,7 @@ impl Field for usize {
     }
 
     fn of(value: Value) -> Option<Self> {
-        match value {
-            Value::Integer(integer) => integer.try_into().ok(),
-            _ => None,
-        }
+        u64::of(value)?.try_into().ok()
     }
 }
 
@@ -198,12 +173,41 @@ impl Field for f64 {
     }
 
     fn of(value: Value) -> Option<Self> {
+        value.number()
+    }
+}
+
+impl Field for String {
+    fn written(&self, _: &Kind) -> Option<Value> {
+        Some(self.clone().into())
+    }
+
+    fn of(value: Value) -> Option<Self> {
         match value {
-            Value::Number(number) | Value::Tolerance(number) | Value::Quantity(number, _) => {
-                Some(number)
-            }
+            Value::Text(text) => Some(text),
             _ => None,
         }
+    }
+}
+
+/// An enum of which each variant has a word in files. [`words!`](crate::words) makes one.
+pub trait Word: Copy + 'static {
+    /// All, as files name them.
+    const ALL: &'static [(&'static str, Self)];
+
+    /// The name as written in a file.
+    fn word(self) -> &'static str;
+}
+
+impl<T: Word> Field for T {
+    fn written(&self, _: &Kind) -> Option<Value> {
+        Some(self.word().into())
+    }
+
+    fn of(value: Value) -> Option<Self> {
+        let text = String::of(value)?;
+        let found = T::ALL.iter().find(|(word, _)| *word == text);
+        found.map(|(_, variant)| *variant)
     }
 }
 
@@ -229,6 +233,33 @@ impl Field for Vec<f64> {
     }
 }
 
+impl<T: Word> Field for Cow<'static, [T]> {
+    fn written(&self, _: &Kind) -> Option<Value> {
+        let words = self.iter().map(|word| word.word().to_owned());
+        Some(Value::Texts(words.collect()))
+    }
+
+    fn of(value: Value) -> Option<Self> {
+        match value {
+            Value::Texts(texts) => texts.into_iter().map(|text| T::of(text.into())).collect(),
+            _ => None,
+        }
+    }
+}
+
+impl Field for Vec<String> {
+    fn written(&self, _: &Kind) -> Option<Value> {
+        Some(Value::Texts(self.clone()))
+    }
+
+    fn of(value: Value) -> Option<Self> {
+        match value {
+            Value::Texts(texts) => Some(texts),
+            _ => None,
+        }
+    }
+}
+
 impl<T: Field> Field for Option<T> {
     fn written(&self, kind: &Kind) -> Option<Value> {
         self.as_ref()?.written(kind)
@@ -236,6 +267,10 @@ impl<T: Field> Field for Option<T> {
 
     fn of(value: Value) -> Option<Self> {
         T::of(value).map(Some)
+    }
+
+    fn absent() -> Option<Self> {
+        Some(None)
     }
 }
 
@@ -253,16 +288,6 @@ pub fn field<T: Field>(
         }
         Ok(None) => otherwise,
         Err(Reported) => None,
-    }
-}
-
-impl Key {
-    /// What counts where the key is left out.
-    pub fn default(&self) -> Option<Value> {
-        match self.presence {
-            Presence::Or(value) => value(),
-            Presence::Required | Presence::Optional => None,
-        }
     }
 }
 
@@ -288,19 +313,11 @@ macro_rules! words {
             }
         }
 
-        impl $crate::quantity::block::Field for $Name {
-            fn written(&self, _: &$crate::quantity::key::Kind) -> Option<$crate::quantity::setting::Value> {
-                Some(self.name().into())
-            }
+        impl $crate::quantity::block::Word for $Name {
+            const ALL: &'static [(&'static str, Self)] = Self::NAMES;
 
-            fn of(value: $crate::quantity::setting::Value) -> Option<Self> {
-                match value {
-                    $crate::quantity::setting::Value::Text(text) => match text.as_str() {
-                        $($word => Some(Self::$Variant),)+
-                        _ => None,
-                    },
-                    _ => None,
-                }
+            fn word(self) -> &'static str {
+                self.name()
             }
         }
     };
@@ -402,7 +419,7 @@ mod tests {
 
     use super::*;
     use crate::quantity::Dimension;
-    use crate::quantity::key::{Entries, Limits, number, quantity};
+    use crate::quantity::key::{Entries, Limits, Presence, number, quantity};
 
     words! {
         pub enum Finish {

@@ -2,10 +2,12 @@
 
 use std::ops::{Bound, Range, RangeBounds, RangeInclusive};
 
+use super::rows::Rows;
 use super::setting::Value;
 use super::{Dimension, format_human, format_si, parse};
 
 /// One key of a block. Reading, range checks, the JSON Schema, the reference in the guides and the resolved files come from it.
+#[derive(Clone)]
 pub struct Key {
     /// As it is written in a file.
     pub name: &'static str,
@@ -15,7 +17,36 @@ pub struct Key {
     pub presence: Presence,
 }
 
+impl Key {
+    /// What it means, as a sentence.
+    pub fn means(&self) -> &'static str {
+        self.means.trim_start()
+    }
+
+    pub fn is_required(&self) -> bool {
+        matches!(self.presence, Presence::Required)
+    }
+
+    /// Whether another key is this one, where it stands in several tables.
+    pub fn is(&self, other: &Self) -> bool {
+        let same_below = match (self.kind.rows(), other.kind.rows()) {
+            (Some(own), Some(others)) => std::ptr::eq(own, others) || own.is(others),
+            (own, others) => own.is_none() && others.is_none(),
+        };
+        self.name == other.name && self.means == other.means && same_below
+    }
+
+    /// What counts where the key is left out.
+    pub fn default(&self) -> Option<Value> {
+        match self.presence {
+            Presence::Or(value) => value(),
+            Presence::Required | Presence::Optional => None,
+        }
+    }
+}
+
 /// Whether a key must be there, and what counts where it is not.
+#[derive(Clone, Copy)]
 pub enum Presence {
     Required,
     /// Left out, it has no value, or one that is chosen by what else is in the file.
@@ -30,12 +61,147 @@ pub enum Kind {
     Flag,
     Integer(RangeInclusive<usize>),
     Number(Number),
+    Text,
     /// One of a few words.
     Word(&'static [&'static str]),
     /// Numbers of one kind; a single one is a list of one.
     Numbers(Number, Entries),
+    Texts(Entries),
     /// Words, each of the same few; a single one is a list of one.
     Words(&'static [&'static str], Entries),
+    /// Numbers, each once: a list, one of them, or a table of a range.
+    Points(Number, &'static Rows),
+    /// A table below.
+    Table(&'static Rows),
+    /// An array of at most this many tables, and what to do in place of more.
+    Tables(&'static Rows, usize, &'static str),
+    /// What is no such text or table as the second is the first. Behind the second stands what is said of it beyond its kind.
+    Either(&'static Kind, &'static Kind, &'static str),
+    /// Numbers of a block, each with the values that it takes in a sweep.
+    Axes(AxesOf),
+}
+
+/// The block whose numbers may vary.
+#[derive(Clone, Copy)]
+pub struct AxesOf {
+    pub block: &'static str,
+    pub rows: &'static Rows,
+    /// The keys of a block of a list, where whole blocks may vary.
+    pub listed: Option<&'static Rows>,
+}
+
+impl Kind {
+    /// What is expected, with its article.
+    pub fn expected(&self) -> String {
+        if let Some((item, entries)) = self.item() {
+            return entries.expected(&item.expected());
+        }
+        match self {
+            Self::Flag => "`true` or `false`".to_owned(),
+            Self::Integer(range) => expected_integer(range),
+            Self::Number(number) => number.expected(),
+            Self::Word(words) => alternatives(words),
+            Self::Points(number, _) => format!("a list or a range, each {}", number.expected()),
+            Self::Table(_) => "a table".to_owned(),
+            Self::Tables(..) => "an array of tables".to_owned(),
+            Self::Either(first, second, more) => {
+                format!("{}, or {}{more}", first.expected(), second.expected())
+            }
+            Self::Axes(AxesOf { block, listed, .. }) => match listed {
+                Some(_) => format!("a table with keys of `[{block}]`, or a list of such blocks"),
+                None => format!("a table with keys of `[{block}]`"),
+            },
+            _ => "a string".to_owned(),
+        }
+    }
+
+    /// What each entry of a list is, and how many there are.
+    pub fn item(&self) -> Option<(Self, &Entries)> {
+        match self {
+            Self::Numbers(number, entries) => Some((Self::Number(*number), entries)),
+            Self::Texts(entries) => Some((Self::Text, entries)),
+            Self::Words(words, entries) => Some((Self::Word(words), entries)),
+            _ => None,
+        }
+    }
+
+    /// Words that the value may be.
+    pub fn words(&self) -> &'static [&'static str] {
+        match self {
+            Self::Word(words) | Self::Words(words, _) => words,
+            Self::Either(first, ..) => first.words(),
+            _ => &[],
+        }
+    }
+
+    /// The keys below, where the value may be a table or an array of tables.
+    pub fn rows(&self) -> Option<&'static Rows> {
+        match self {
+            Self::Table(rows) | Self::Tables(rows, ..) | Self::Points(_, rows) => Some(rows),
+            Self::Either(_, second, _) => second.rows(),
+            _ => None,
+        }
+    }
+
+    /// What the number is, where the value may be one; of several dimensions this one.
+    pub fn number(&self, chosen: Dimension) -> Option<Number> {
+        match self {
+            Self::Number(number) => Some(number.of(chosen)),
+            Self::Either(first, ..) => first.number(chosen),
+            _ => None,
+        }
+    }
+
+    /// The same once the dimension is known of numbers that may have several.
+    #[must_use]
+    pub fn of(&self, chosen: Dimension) -> Self {
+        match self {
+            Self::Number(number) => Self::Number(number.of(chosen)),
+            Self::Numbers(number, entries) => Self::Numbers(number.of(chosen), entries.clone()),
+            other => other.clone(),
+        }
+    }
+
+    /// Whether a value is one of these.
+    pub fn has(&self, value: &Value) -> bool {
+        let fits =
+            |found: &f64, number: &Number| found.is_finite() && number.limits.contains(*found);
+        match (self, value) {
+            (Self::Integer(range), Value::Integer(found)) => {
+                usize::try_from(*found).is_ok_and(|found| range.contains(&found))
+            }
+            (Self::Number(number), value) => value.number().is_some_and(|f| fits(&f, number)),
+            (
+                Self::Numbers(number, entries),
+                Value::Numbers(found) | Value::Quantities(found, _),
+            ) => {
+                entries.number.contains(&found.len())
+                    && found.iter().all(|found| fits(found, number))
+            }
+            _ => true,
+        }
+    }
+}
+
+/// The words of a table of what each stands for.
+pub const fn words_of<T, const N: usize>(table: &[(&'static str, T)]) -> [&'static str; N] {
+    let mut words = [""; N];
+    let mut place = 0;
+    while place < N {
+        words[place] = table[place].0;
+        place += 1;
+    }
+    words
+}
+
+/// `"a", "b" or "c"`.
+pub fn alternatives(words: &[&str]) -> String {
+    let words: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
+    match words.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} or {last}", others.join(", ")),
+        None => "absent".to_owned(),
+    }
 }
 
 /// A number: bare, or a quantity, which is written with its unit and kept as its SI value.
@@ -43,6 +209,8 @@ pub enum Kind {
 pub struct Number {
     /// `None` for a bare number.
     pub dimension: Option<Dimension>,
+    /// Dimensions that another key may choose in place of it.
+    pub or: &'static [Dimension],
     pub limits: Limits,
     /// In place of that of the dimension, as TOML.
     pub example: Option<&'static str>,
@@ -62,17 +230,36 @@ pub struct Entries {
 
 impl Entries {
     /// Any number of them.
-    pub const ANY: Self = Self {
-        number: 0..=usize::MAX,
-        repeats: true,
-        instead: "",
-    };
+    pub const ANY: Self = Self::of(0..=usize::MAX, "");
+
+    /// Two of them, and what to write in place of more or fewer.
+    pub const fn two(instead: &'static str) -> Self {
+        Self::of(2..=2, instead)
+    }
+
+    /// So many, and what to write in place of more or fewer.
+    pub const fn of(number: RangeInclusive<usize>, instead: &'static str) -> Self {
+        Self {
+            number,
+            repeats: true,
+            instead,
+        }
+    }
+
+    /// What is expected of such a list: `an array, each item a time`.
+    fn expected(&self, item: &str) -> String {
+        match *self.number.end() {
+            2 => format!("an array of two, each {item}"),
+            _ => format!("an array, each item {item}"),
+        }
+    }
 }
 
 /// A quantity of any size.
 pub const fn quantity(dimension: Dimension) -> Number {
     Number {
         dimension: Some(dimension),
+        or: &[],
         limits: Limits::NONE,
         example: None,
         has_exponent: false,
@@ -83,6 +270,7 @@ pub const fn quantity(dimension: Dimension) -> Number {
 pub const fn number(example: &'static str) -> Number {
     Number {
         dimension: None,
+        or: &[],
         limits: Limits::NONE,
         example: Some(example),
         has_exponent: false,
@@ -129,12 +317,33 @@ impl Number {
         }
     }
 
+    /// The same where another key may choose one of these dimensions for it.
+    #[must_use]
+    pub const fn or_of(self, or: &'static [Dimension]) -> Self {
+        Self { or, ..self }
+    }
+
+    /// The same once the dimension is chosen, where there is a choice.
+    #[must_use]
+    pub const fn of(self, dimension: Dimension) -> Self {
+        match self.or {
+            [] => self,
+            _ => Self {
+                dimension: Some(dimension),
+                or: &[],
+                ..self
+            },
+        }
+    }
+
     /// What is expected, with its article: `a force above zero`.
     pub fn expected(&self) -> String {
         let limits = self.limits.qualify(self.dimension);
-        match self.dimension {
-            Some(dimension) => format!("{dimension}{limits}"),
-            None => format!("a number{limits}"),
+        let dimensions = self.dimension.iter().chain(self.or);
+        let names: Vec<String> = dimensions.map(Dimension::to_string).collect();
+        match names.as_slice() {
+            [] => format!("a number{limits}"),
+            names => format!("{}{limits}", names.join(" or ")),
         }
     }
 
@@ -154,19 +363,11 @@ pub const POISSON_RATIO: Number = number("0.4")
     .or_else("an incompressible material has poisson_ratio = 0.5");
 
 /// An integer, with what is expected of it: `an integer from 8 to 1000000`.
-pub fn expected_integer(range: &RangeInclusive<usize>) -> String {
+fn expected_integer(range: &RangeInclusive<usize>) -> String {
     match (*range.start(), *range.end()) {
         (1, usize::MAX) => "a positive integer".to_owned(),
         (least, usize::MAX) => format!("an integer of at least {least}"),
         (least, most) => format!("an integer from {least} to {most}"),
-    }
-}
-
-/// A list of so many items, with what is expected of each: `an array, each item a time`.
-pub fn expected_list(item: &str, number: &RangeInclusive<usize>) -> String {
-    match *number.end() {
-        2 => format!("an array of two, each {item}"),
-        _ => format!("an array, each item {item}"),
     }
 }
 

@@ -62,6 +62,16 @@ impl Setting {
 }
 
 impl Value {
+    /// The number that it is, if it is one.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(number) | Self::Tolerance(number) | Self::Quantity(number, _) => {
+                Some(*number)
+            }
+            _ => None,
+        }
+    }
+
     /// As it stands in a file.
     pub fn toml(&self) -> String {
         let quoted = |value: &f64, dimension| format!("\"{}\"", format_si(*value, dimension));

@@ -1,6 +1,6 @@
-//! The kinds of value a key can have: how each is read, what messages call it, and an example of it.
+//! How a value of each kind is read, an example of it, and what a JSON Schema says of it.
 
-mod array;
+mod list;
 mod scalar;
 
 use std::ops::RangeInclusive;
@@ -9,17 +9,16 @@ use serde_json::{Value as Json, json};
 
 use super::Located;
 use super::reader::TableReader;
-use super::row::Rows;
+use super::row;
 use super::similar::similar;
-use super::tree::{Node, Table as TomlTable, Value};
+use super::tree::{Node, Table, Value as Toml};
 use crate::input::axis::AxisOf;
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Location, Problems};
-use crate::quantity::Dimension;
-use crate::quantity::block::alternatives;
-use crate::quantity::key::expected_integer;
-pub(crate) use crate::quantity::key::{Number, number, quantity};
-pub(crate) use array::{Array, list, pair};
-pub(crate) use scalar::{Decided, Dependent, text_definitions};
+use crate::input::points;
+use crate::quantity::format_si;
+use crate::quantity::key::Kind;
+use crate::quantity::setting::Value;
+pub(crate) use scalar::text_definitions;
 
 /// Characters of the user's text repeated in a message.
 const MAX_QUOTED: usize = 32;
@@ -65,7 +64,7 @@ impl Spot<'_> {
     /// What is read of the table that the value at `node` is, or everything that is wrong with it.
     pub(crate) fn read_table<T>(
         &self,
-        table: &TomlTable,
+        table: &Table,
         node: &Node,
         read: impl FnOnce(TableReader<'_>) -> Option<T>,
     ) -> Result<T, Diagnostics> {
@@ -80,74 +79,241 @@ impl Spot<'_> {
     }
 }
 
-/// What can be said of the values of a key, whatever they are.
-pub(crate) trait Describe: Sync {
-    /// What is expected, with its article: `a force`.
-    fn expected(&self) -> String;
-
+/// What documents know of a kind of value besides its declaration.
+pub(crate) trait Describe {
     /// The value of an example, as TOML.
     fn example(&self) -> String;
 
     /// What a JSON Schema says of it.
     fn schema(&self) -> Json;
+}
 
-    /// Words that the value may be.
-    fn words(&self) -> Vec<&'static str> {
-        Vec::new()
+impl Describe for Kind {
+    fn example(&self) -> String {
+        if let Some((item, entries)) = self.item() {
+            let item = item.example();
+            return match *entries.number.end() {
+                2 => format!("[{item}, {item}]"),
+                _ => format!("[{item}]"),
+            };
+        }
+        match self {
+            Self::Flag => "true".to_owned(),
+            Self::Integer(range) => {
+                let example = EXAMPLE_INTEGER.min(*range.end()).max(*range.start());
+                example.to_string()
+            }
+            Self::Number(number) => number.example(),
+            Self::Word(words) => format!("\"{}\"", words.first().unwrap_or(&"...")),
+            Self::Points(number, _) => format!("[{}]", number.example()),
+            Self::Table(_) => "{ ... }".to_owned(),
+            Self::Tables(..) => "[{ ... }]".to_owned(),
+            Self::Either(first, ..) => first.example(),
+            Self::Axes(axes) => AxisOf::new(axes).example(),
+            _ => "\"...\"".to_owned(),
+        }
     }
 
-    /// The keys below, where the value is a table or an array of tables.
-    fn rows(&self) -> Option<&'static Rows> {
-        None
-    }
-
-    /// Whether what stands there is a list.
-    fn is_list(&self) -> bool {
-        false
-    }
-
-    /// What the number is, where the value is one; `controlled` is the dimension of what the drive controls.
-    fn number(&self, _controlled: Dimension) -> Option<Number> {
-        None
-    }
-
-    /// The axes of a sweep over numbers of a block, where the value is those.
-    fn axes(&self) -> Option<&AxisOf> {
-        None
+    fn schema(&self) -> Json {
+        if let Some((item, entries)) = self.item() {
+            return list::schema(&item.schema(), entries);
+        }
+        match self {
+            Self::Flag => json!({ "type": "boolean" }),
+            Self::Integer(range) => {
+                let mut schema = json!({ "type": "integer", "minimum": range.start() });
+                if *range.end() < i64::MAX as usize {
+                    schema["maximum"] = json!(range.end());
+                }
+                schema
+            }
+            Self::Number(number) => number.schema(),
+            Self::Word(words) => json!({ "enum": words }),
+            Self::Points(number, range) => points::schema(number, range),
+            Self::Table(rows) => row::schema(rows),
+            Self::Tables(rows, most, _) => {
+                json!({ "type": "array", "items": row::schema(rows), "maxItems": most })
+            }
+            Self::Either(first, second, _) => json!({ "anyOf": [first.schema(), second.schema()] }),
+            Self::Axes(axes) => AxisOf::new(axes).schema(),
+            _ => json!({ "type": "string" }),
+        }
     }
 }
 
-/// A kind of value.
-pub(crate) trait Kind: Describe {
-    type Value: Clone + Sync;
+/// A value as a JSON Schema and the reference have it.
+pub(crate) fn json_of(value: &Value) -> Json {
+    match value {
+        Value::Quantity(value, dimension) => json!(format_si(*value, *dimension)),
+        Value::Number(number) | Value::Tolerance(number) => json!(number),
+        Value::Integer(integer) => json!(integer),
+        Value::Flag(flag) => json!(flag),
+        Value::Text(text) => json!(text),
+        Value::Texts(texts) => json!(texts),
+        other => json!(other.toml()),
+    }
+}
 
-    /// The value at `node`, or everything that is wrong with it.
-    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<Self::Value, Diagnostics>;
+/// A value of this kind, which is to be read at this node under this key.
+#[derive(Clone, Copy)]
+pub(crate) struct Asked<'a> {
+    pub(crate) kind: &'a Kind,
+    pub(crate) node: &'a Node,
+    pub(crate) spot: &'a Spot<'a>,
+}
 
-    /// A value as it is written in a file.
-    fn written(&self, value: &Self::Value) -> Json;
+impl Asked<'_> {
+    /// The value, or everything that is wrong with it. A table is read key by key instead.
+    pub(crate) fn read(&self) -> Result<Value, Diagnostics> {
+        if let Some((item, entries)) = self.kind.item() {
+            return list::read(self, &item, entries);
+        }
+        let value = match self.kind {
+            Kind::Flag => Value::Flag(self.flag()?),
+            Kind::Integer(range) => self.integer(range)?.into(),
+            Kind::Number(number) => number.value(self.number(number)?),
+            Kind::Text => Value::Text(self.text()?),
+            Kind::Word(words) => self.word(words)?.into(),
+            Kind::Points(number, _) => Value::Numbers(points::read(self, number)?),
+            Kind::Either(first, second, _) => {
+                let is_second = match second {
+                    Kind::Table(_) => matches!(self.node.value, Toml::Table(_)),
+                    _ => !matches!(self.node.value, Toml::Text(_)),
+                };
+                let kind = if is_second { second } else { first };
+                return Asked { kind, ..*self }.read();
+            }
+            Kind::Table(_) | Kind::Tables(..) | Kind::Axes(_) => return Err(self.refused()),
+            // Lists were read above.
+            Kind::Numbers(..) | Kind::Texts(_) | Kind::Words(..) => return Err(self.refused()),
+        };
+        Ok(value)
+    }
+
+    fn must(&self, what: &str) -> Diagnostic {
+        let message = format!("`{}` must be {what}", self.spot.path);
+        Diagnostic::at(&self.node.location, message)
+    }
+
+    fn must_be_expected(&self) -> Diagnostic {
+        self.must(&self.kind.expected())
+    }
 
     /// A value of another type than expected.
-    fn wrong_type(&self, node: &Node, spot: &Spot<'_>) -> Diagnostic {
-        must_be(spot, &self.expected(), node).because(format!("found {}", node.describe()))
+    pub(crate) fn wrong_type(&self) -> Diagnostic {
+        let found = format!("found {}", self.node.describe());
+        self.must_be_expected().because(found)
+    }
+
+    /// TOML `value` as it is written here.
+    fn write(&self, value: &str) -> String {
+        self.spot.write(&self.node.location, value)
     }
 
     /// What to write, with an example.
-    fn advice(&self, node: &Node, spot: &Spot<'_>) -> String {
-        let written = spot.write(&node.location, &self.example());
-        format!("write {}, such as {written}", self.expected())
+    fn advice(&self) -> String {
+        let written = self.write(&self.kind.example());
+        format!("write {}, such as {written}", self.kind.expected())
     }
 
-    /// The same of a value of another type, with what to write.
-    fn refused(&self, node: &Node, spot: &Spot<'_>) -> Diagnostics {
-        let help = self.advice(node, spot);
-        self.wrong_type(node, spot).help(help).into()
+    /// A value of another type than expected, with what to write.
+    fn refused(&self) -> Diagnostics {
+        self.wrong_type().help(self.advice()).into()
     }
-}
 
-fn must_be(spot: &Spot<'_>, expected: &str, node: &Node) -> Diagnostic {
-    let message = format!("`{}` must be {expected}", spot.path);
-    Diagnostic::at(&node.location, message)
+    fn integer(&self, range: &RangeInclusive<usize>) -> Result<usize, Diagnostics> {
+        let fits = |integer: &usize| range.contains(integer);
+        let probably: Option<usize> = match &self.node.value {
+            Toml::Integer(integer) => {
+                let integer = integer.ok().and_then(|integer| integer.try_into().ok());
+                return integer.filter(fits).ok_or_else(|| {
+                    let problem = self.must_be_expected().because("out of this range");
+                    problem.help(self.advice()).into()
+                });
+            }
+            // 2^53: up to here every integer is a float, so the cast keeps the value.
+            Toml::Float(Ok(float)) if float.fract() == 0.0 && (0.0..9e15).contains(float) => {
+                Some(*float as usize)
+            }
+            Toml::Text(text) => text.trim().parse().ok(),
+            _ => None,
+        };
+        let help = match probably.filter(fits) {
+            Some(integer) => format!("write {}", self.write(&integer.to_string())),
+            None => self.advice(),
+        };
+        Err(self.wrong_type().help(help).into())
+    }
+
+    fn flag(&self) -> Result<bool, Diagnostics> {
+        let meant = match &self.node.value {
+            Toml::Boolean(boolean) => return Ok(*boolean),
+            Toml::Text(text) => match text.trim().to_lowercase().as_str() {
+                "false" | "no" | "off" => "false",
+                _ => "true",
+            },
+            _ => "true",
+        };
+        let help = format!("write {}", self.write(meant));
+        Err(self.wrong_type().help(help).into())
+    }
+
+    /// Text that can be printed and drawn: line ends and tabs are the only control characters, and it has no noncharacters, which no
+    /// SVG or XML may hold.
+    fn text(&self) -> Result<String, Diagnostics> {
+        let Toml::Text(text) = &self.node.value else {
+            return Err(self.no_text());
+        };
+        let is_unfit = |c: &char| {
+            (c.is_control() && !"\n\t".contains(*c)) || matches!(c, '\u{fffe}' | '\u{ffff}')
+        };
+        let Some(unfit) = text.chars().find(is_unfit) else {
+            return Ok(text.to_owned());
+        };
+        let because = format!("it has the character U+{:04X}", u32::from(unfit));
+        let problem = self.must("text without control characters");
+        let problem = problem.because(because);
+        Err(problem.help("leave that character out").into())
+    }
+
+    fn no_text(&self) -> Diagnostics {
+        let written = self.node.location.text();
+        let is_word = !written.is_empty() && !written.contains(['"', '\'', '\\', '\n', '[', '{']);
+        let help = match is_word {
+            true if self.node.location.source().is_flag() => {
+                format!("write `--set '{}=\"{written}\"'`", self.spot.path)
+            }
+            true => {
+                let in_quotes = self.write(&format!("\"{written}\""));
+                format!("write it in quotes: {in_quotes}")
+            }
+            false => self.advice(),
+        };
+        self.wrong_type().help(help).into()
+    }
+
+    fn word(&self, words: &'static [&'static str]) -> Result<&'static str, Diagnostics> {
+        let Toml::Text(text) = &self.node.value else {
+            return Err(self.refused());
+        };
+        if let Some(word) = words.iter().find(|word| *word == text) {
+            return Ok(word);
+        }
+        let (because, help) = match similar(text, words) {
+            Some(meant) => {
+                let written = self.write(&format!("\"{meant}\""));
+                let because = format!("did you mean \"{meant}\"?");
+                (because, format!("write {written}"))
+            }
+            None => {
+                let written = self.write(&self.kind.example());
+                let because = format!("{} is none of these", quoted(text));
+                (because, format!("write, for example, {written}"))
+            }
+        };
+        let problem = self.must_be_expected().because(because);
+        Err(problem.help(help).into())
+    }
 }
 
 /// User text in double quotes, shortened and without control characters.
@@ -157,313 +323,4 @@ fn quoted(text: &str) -> String {
         shown.push('…');
     }
     format!("\"{}\"", shown.escape_debug())
-}
-
-/// An integer within a range.
-pub(crate) struct Integer(pub(crate) RangeInclusive<usize>);
-
-impl Describe for Integer {
-    fn expected(&self) -> String {
-        expected_integer(&self.0)
-    }
-
-    fn example(&self) -> String {
-        let example = EXAMPLE_INTEGER.min(*self.0.end()).max(*self.0.start());
-        example.to_string()
-    }
-
-    fn schema(&self) -> Json {
-        let mut schema = json!({ "type": "integer", "minimum": self.0.start() });
-        if *self.0.end() < i64::MAX as usize {
-            schema["maximum"] = json!(self.0.end());
-        }
-        schema
-    }
-}
-
-impl Kind for Integer {
-    type Value = usize;
-
-    fn written(&self, value: &usize) -> Json {
-        json!(value)
-    }
-
-    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<usize, Diagnostics> {
-        let fits = |integer: &usize| self.0.contains(integer);
-        let probably: Option<usize> = match &node.value {
-            Value::Integer(integer) => {
-                let integer = integer.ok().and_then(|integer| integer.try_into().ok());
-                return integer.filter(fits).ok_or_else(|| {
-                    must_be(spot, &self.expected(), node)
-                        .because("out of this range")
-                        .help(self.advice(node, spot))
-                        .into()
-                });
-            }
-            // 2^53: up to here every integer is a float, so the cast keeps the value.
-            Value::Float(Ok(float)) if float.fract() == 0.0 && (0.0..9e15).contains(float) => {
-                Some(*float as usize)
-            }
-            Value::Text(text) => text.trim().parse().ok(),
-            _ => None,
-        };
-        let help = match probably.filter(fits) {
-            Some(integer) => {
-                let written = spot.write(&node.location, &integer.to_string());
-                format!("write {written}")
-            }
-            None => self.advice(node, spot),
-        };
-        Err(self.wrong_type(node, spot).help(help).into())
-    }
-}
-
-/// `true` or `false`.
-pub(crate) struct Boolean;
-
-impl Describe for Boolean {
-    fn expected(&self) -> String {
-        "`true` or `false`".to_owned()
-    }
-
-    fn example(&self) -> String {
-        "true".to_owned()
-    }
-
-    fn schema(&self) -> Json {
-        json!({ "type": "boolean" })
-    }
-}
-
-impl Kind for Boolean {
-    type Value = bool;
-
-    fn written(&self, value: &bool) -> Json {
-        json!(value)
-    }
-
-    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<bool, Diagnostics> {
-        let meant = match &node.value {
-            Value::Boolean(boolean) => return Ok(*boolean),
-            Value::Text(text) => match text.trim().to_lowercase().as_str() {
-                "true" | "yes" | "on" => "true",
-                "false" | "no" | "off" => "false",
-                _ => "true",
-            },
-            _ => "true",
-        };
-        let written = spot.write(&node.location, meant);
-        let diagnostic = self.wrong_type(node, spot);
-        Err(diagnostic.help(format!("write {written}")).into())
-    }
-}
-
-/// Any text.
-pub(crate) struct Text;
-
-impl Describe for Text {
-    fn expected(&self) -> String {
-        "a string".to_owned()
-    }
-
-    fn example(&self) -> String {
-        "\"...\"".to_owned()
-    }
-
-    fn schema(&self) -> Json {
-        json!({ "type": "string" })
-    }
-}
-
-impl Kind for Text {
-    type Value = String;
-
-    fn written(&self, value: &String) -> Json {
-        json!(value)
-    }
-
-    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<String, Diagnostics> {
-        let written = node.location.text();
-        let is_word = !written.is_empty() && !written.contains(['"', '\'', '\\', '\n', '[', '{']);
-        let help = match &node.value {
-            Value::Text(text) => return without_control_characters(text, node, spot),
-            _ if is_word && node.location.source().is_flag() => {
-                format!("write `--set '{}=\"{written}\"'`", spot.path)
-            }
-            _ if is_word => {
-                let in_quotes = spot.write(&node.location, &format!("\"{written}\""));
-                format!("write it in quotes: {in_quotes}")
-            }
-            _ => self.advice(node, spot),
-        };
-        Err(self.wrong_type(node, spot).help(help).into())
-    }
-}
-
-/// Text that can be printed and drawn: line ends and tabs are the only control characters, and it has no noncharacters, which no
-/// SVG or XML may hold.
-fn without_control_characters(
-    text: &str,
-    node: &Node,
-    spot: &Spot<'_>,
-) -> Result<String, Diagnostics> {
-    let is_unfit =
-        |c: &char| (c.is_control() && !"\n\t".contains(*c)) || matches!(c, '\u{fffe}' | '\u{ffff}');
-    let Some(unfit) = text.chars().find(is_unfit) else {
-        return Ok(text.to_owned());
-    };
-    let problem = must_be(spot, "text without control characters", node);
-    let because = format!("it has the character U+{:04X}", u32::from(unfit));
-    Err(problem
-        .because(because)
-        .help("leave that character out")
-        .into())
-}
-
-/// One of a few words, each standing for a value.
-pub(crate) struct Choice<T: 'static>(pub(crate) &'static [(&'static str, T)]);
-
-impl<T: Clone + PartialEq + Sync> Choice<T> {
-    fn one_of(&self) -> OneOf {
-        OneOf(self.words())
-    }
-}
-
-impl<T: Clone + PartialEq + Sync> Describe for Choice<T> {
-    fn expected(&self) -> String {
-        self.one_of().expected()
-    }
-
-    fn example(&self) -> String {
-        self.one_of().example()
-    }
-
-    fn schema(&self) -> Json {
-        self.one_of().schema()
-    }
-
-    fn words(&self) -> Vec<&'static str> {
-        self.0.iter().map(|(word, _)| *word).collect()
-    }
-}
-
-impl<T: Clone + PartialEq + Sync> Kind for Choice<T> {
-    type Value = T;
-
-    fn written(&self, value: &T) -> Json {
-        let named = self.0.iter().find(|(_, known)| known == value);
-        json!(named.map(|(word, _)| *word))
-    }
-
-    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<T, Diagnostics> {
-        let found = self.one_of().convert(node, spot)?;
-        let named = self.0.iter().find(|(word, _)| *word == found);
-        let named = named.map(|(_, value)| value.clone());
-        named.ok_or_else(|| self.refused(node, spot))
-    }
-}
-
-/// One of a few words.
-pub(crate) struct OneOf(pub(crate) Vec<&'static str>);
-
-impl Describe for OneOf {
-    fn expected(&self) -> String {
-        alternatives(&self.0)
-    }
-
-    fn example(&self) -> String {
-        format!("\"{}\"", self.0.first().unwrap_or(&"..."))
-    }
-
-    fn schema(&self) -> Json {
-        json!({ "enum": self.0 })
-    }
-
-    fn words(&self) -> Vec<&'static str> {
-        self.0.clone()
-    }
-}
-
-impl Kind for OneOf {
-    type Value = &'static str;
-
-    fn written(&self, word: &&'static str) -> Json {
-        json!(word)
-    }
-
-    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<&'static str, Diagnostics> {
-        let Value::Text(text) = &node.value else {
-            return Err(self.refused(node, spot));
-        };
-        if let Some(word) = self.0.iter().find(|word| *word == text) {
-            return Ok(word);
-        }
-        let diagnostic = must_be(spot, &self.expected(), node);
-        let diagnostic = match similar(text, &self.0) {
-            Some(meant) => {
-                let written = spot.write(&node.location, &format!("\"{meant}\""));
-                diagnostic
-                    .because(format!("did you mean \"{meant}\"?"))
-                    .help(format!("write {written}"))
-            }
-            None => {
-                let written = spot.write(&node.location, &self.example());
-                diagnostic
-                    .because(format!("{} is none of these", quoted(text)))
-                    .help(format!("write, for example, {written}"))
-            }
-        };
-        Err(diagnostic.into())
-    }
-}
-
-/// A table below, with these keys.
-pub(crate) struct Table(pub(crate) &'static Rows);
-
-impl Describe for Table {
-    fn expected(&self) -> String {
-        "a table".to_owned()
-    }
-
-    fn example(&self) -> String {
-        "{ ... }".to_owned()
-    }
-
-    fn schema(&self) -> Json {
-        self.0.schema()
-    }
-
-    fn rows(&self) -> Option<&'static Rows> {
-        Some(self.0)
-    }
-}
-
-/// An array of tables with these keys, and how many it may have.
-pub(crate) struct Tables {
-    pub(crate) rows: &'static Rows,
-    pub(crate) most: usize,
-    /// What to do in place of too many.
-    pub(crate) instead: &'static str,
-}
-
-impl Describe for Tables {
-    fn expected(&self) -> String {
-        "an array of tables".to_owned()
-    }
-
-    fn example(&self) -> String {
-        "[{ ... }]".to_owned()
-    }
-
-    fn schema(&self) -> Json {
-        json!({ "type": "array", "items": self.rows.schema(), "maxItems": self.most })
-    }
-
-    fn rows(&self) -> Option<&'static Rows> {
-        Some(self.rows)
-    }
-
-    fn is_list(&self) -> bool {
-        true
-    }
 }

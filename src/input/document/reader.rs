@@ -3,11 +3,13 @@
 use std::path::Path;
 
 use super::Located;
-use super::kind::{self, Describe, Kind, Spot, Tables};
-use super::row::{AnyRow, Optional, Read, Required, Row};
+use super::kind::{Asked, Describe, Spot};
 use super::similar::similar;
 use super::tree::{Entry, Node, Table, Value};
 use crate::input::diagnostic::{Diagnostic, Location, Problems, Reported};
+use crate::quantity::block::Field;
+use crate::quantity::key::{Key, Kind};
+use crate::quantity::{Dimension, setting};
 
 /// Reads one table. Keys asked for are remembered; [`TableReader::finish`] reports the others.
 #[derive(Debug)]
@@ -21,6 +23,8 @@ pub(crate) struct TableReader<'a> {
     /// Where paths to files start from.
     folder: &'a Path,
     problems: &'a Problems,
+    /// Of numbers that may have several.
+    dimension: Option<Dimension>,
     asked: Vec<String>,
     /// Reports of absent keys: taken back when an unknown key turns out to be one of them, misspelt.
     missing: Vec<(Vec<String>, Reported<'a>)>,
@@ -46,6 +50,7 @@ impl<'a> TableReader<'a> {
             path,
             folder: Path::new(""),
             problems,
+            dimension: None,
             asked: Vec::new(),
             missing: Vec::new(),
         }
@@ -54,6 +59,11 @@ impl<'a> TableReader<'a> {
     /// The same, in whose document paths to files start from this folder.
     pub(crate) fn in_folder(self, folder: &'a Path) -> Self {
         Self { folder, ..self }
+    }
+
+    /// Reads from now on numbers that may have several dimensions as such of this one, in tables below too.
+    pub(crate) fn choose(&mut self, dimension: Dimension) {
+        self.dimension = Some(dimension);
     }
 
     /// Where paths to files start from.
@@ -67,18 +77,23 @@ impl<'a> TableReader<'a> {
     }
 
     /// Whether a key is present, with a right value or a wrong one. Counts as asking for it.
-    pub(crate) fn has(&mut self, row: &dyn AnyRow) -> bool {
-        self.find(row.name()).is_some()
+    pub(crate) fn has(&mut self, key: &Key) -> bool {
+        self.find(key.name).is_some()
     }
 
     /// Where a key itself is written, `None` when it is absent. Counts as asking for it.
-    pub(crate) fn key_location(&mut self, row: &dyn AnyRow) -> Option<Location> {
-        self.find(row.name()).map(|entry| entry.key.clone())
+    pub(crate) fn key_location(&mut self, key: &Key) -> Option<Location> {
+        self.place_of(key.name)
     }
 
     /// The same of a key of this name.
     pub(crate) fn place_of(&mut self, key: &str) -> Option<Location> {
         self.find(key).map(|entry| entry.key.clone())
+    }
+
+    /// Where the value under a key of this name is written.
+    pub(crate) fn value_place(&mut self, key: &str) -> Option<Location> {
+        self.find(key).map(|entry| entry.node.location.clone())
     }
 
     /// Where the items of a list are written; of a single value in its place, where that is.
@@ -94,15 +109,15 @@ impl<'a> TableReader<'a> {
     }
 
     /// The value that belongs to the one of these keys that is present. None, or more than one, is a problem, and reported.
-    pub(crate) fn one_of<T: Copy>(&mut self, choices: &[(&'static dyn AnyRow, T)]) -> Option<T> {
+    pub(crate) fn one_of<T: Copy>(&mut self, choices: &[(&Key, T)]) -> Option<T> {
         let present: Vec<(&str, T, &Entry)> = choices
             .iter()
-            .filter_map(|(row, value)| Some((row.name(), *value, self.find(row.name())?)))
+            .filter_map(|(key, value)| Some((key.name, *value, self.find(key.name)?)))
             .collect();
         match present.as_slice() {
             [(_, value, _)] => Some(*value),
             [] => {
-                let keys: Vec<&str> = choices.iter().map(|(row, _)| row.name()).collect();
+                let keys: Vec<&str> = choices.iter().map(|(key, _)| key.name).collect();
                 let message = match self.path.as_str() {
                     "" => format!("missing one of {}", in_backticks(&keys)),
                     path => format!("`{path}` needs one of {}", in_backticks(&keys)),
@@ -173,6 +188,11 @@ impl<'a> TableReader<'a> {
         self.table.entries.get(key)
     }
 
+    /// What stands under a key as it was parsed. Counts as asking for it.
+    pub(crate) fn node(&mut self, key: &Key) -> Option<&'a Node> {
+        self.find(key.name).map(|entry| &entry.node)
+    }
+
     fn report_missing(&mut self, keys: &[&str], problem: Diagnostic) {
         let keys = keys.iter().map(|key| (*key).to_owned()).collect();
         self.missing.push((keys, self.problems.push(problem)));
@@ -181,44 +201,100 @@ impl<'a> TableReader<'a> {
 
 /// Values and tables below.
 impl<'a> TableReader<'a> {
-    /// What stands under a key, with its place; `None` where a problem was reported.
-    pub(crate) fn read<K: Kind, P: Read<K>>(&mut self, row: &Row<K, P>) -> Option<P::Answer> {
-        P::read(row, self)
+    /// What stands under a key, or counts without it, with its place; `None` where a problem was reported.
+    pub(crate) fn read<T: Field>(&mut self, key: &Key) -> Option<Located<T>> {
+        if let Some(found) = self.read_if(key)? {
+            return Some(found);
+        }
+        let value = key.default().and_then(T::of).or_else(T::absent);
+        if value.is_none() {
+            self.report_absent(key);
+        }
+        Some(self.in_place_of(key.name, value?))
     }
 
     /// The same without its place.
-    pub(crate) fn value<K: Kind, P: Read<K>>(&mut self, row: &Row<K, P>) -> Option<P::Value> {
-        P::read(row, self).map(P::value)
+    pub(crate) fn value<T: Field>(&mut self, key: &Key) -> Option<T> {
+        self.read(key).map(|located| located.value)
+    }
+
+    /// What the word under a key stands for in a table, where there is one; `None` where a problem was reported.
+    pub(crate) fn chosen<T: Clone>(&mut self, key: &Key, table: &[(&str, T)]) -> Option<Option<T>> {
+        let word: Option<String> = self.value(key)?;
+        let found = word.and_then(|word| table.iter().find(|(known, _)| *known == word));
+        Some(found.map(|(_, chosen)| chosen.clone()))
+    }
+
+    /// What stands under a key, where it is there, with its place; `None` where that is wrong, which is reported.
+    pub(crate) fn read_if<T: Field>(&mut self, key: &Key) -> Option<Option<Located<T>>> {
+        match self.under(key)? {
+            None => Some(None),
+            Some(Located {
+                value,
+                path,
+                location,
+            }) => {
+                let value = T::of(value)?;
+                Some(Some(Located {
+                    value,
+                    path,
+                    location,
+                }))
+            }
+        }
+    }
+
+    /// The same as it is written in a file.
+    pub(super) fn under(&mut self, key: &Key) -> Option<Option<Located<setting::Value>>> {
+        let Some(entry) = self.find(key.name) else {
+            return Some(None);
+        };
+        let path = join(&self.path, key.name);
+        let spot = Spot {
+            path: &path,
+            key: Some(key.name),
+        };
+        let chosen = self.dimension.map(|dimension| key.kind.of(dimension));
+        let asked = Asked {
+            kind: chosen.as_ref().unwrap_or(&key.kind),
+            node: &entry.node,
+            spot: &spot,
+        };
+        match asked.read() {
+            Ok(value) => Some(Some(spot.located(value, &entry.node))),
+            Err(diagnostics) => {
+                self.problems.extend(diagnostics);
+                None
+            }
+        }
     }
 
     /// The table under a key, inline or under a header.
-    pub(crate) fn table(&mut self, row: &Row<kind::Table, Required>) -> Option<TableReader<'a>> {
-        if self.has(row) {
-            return self.below(row.name);
+    pub(crate) fn table(&mut self, key: &Key) -> Option<TableReader<'a>> {
+        match self.has(key) {
+            true => self.below(key.name),
+            false => {
+                self.report_absent(key);
+                None
+            }
         }
-        let header = header(&join(&self.path, row.name));
-        let problem = Diagnostic::at(&self.location, format!("missing table `{header}`")).help(
-            format!("add `{header}` on a line of its own, with its keys below"),
-        );
-        self.report_missing(&[row.name], problem);
-        None
     }
 
     /// The table under a key as it was parsed, where there is one. Counts as asking for it.
-    pub(crate) fn parsed(&mut self, row: &Row<kind::Table, Required>) -> Option<&'a Table> {
-        self.find(row.name)?;
-        self.table.table(row.name)
+    pub(crate) fn parsed(&mut self, key: &Key) -> Option<&'a Table> {
+        self.find(key.name)?;
+        self.table.table(key.name)
     }
 
     /// What a table that may be left out holds, or what counts without it.
     pub(crate) fn table_or<T>(
         &mut self,
-        row: &Row<kind::Table, Optional>,
+        key: &Key,
         default: T,
         read: impl FnOnce(TableReader<'a>) -> Option<T>,
     ) -> Option<T> {
-        match self.has(row) {
-            true => self.below(row.name).and_then(read),
+        match self.has(key) {
+            true => self.below(key.name).and_then(read),
             false => Some(default),
         }
     }
@@ -235,8 +311,11 @@ impl<'a> TableReader<'a> {
     /// A reader of what stands here, which must be a table.
     fn as_table(&self, node: &'a Node, path: String, help: &str) -> Option<TableReader<'a>> {
         if let Value::Table(table) = &node.value {
-            let reader = Self::new(table, node.location.clone(), path, self.problems);
-            return Some(reader.in_folder(self.folder));
+            return Some(Self {
+                folder: self.folder,
+                dimension: self.dimension,
+                ..Self::new(table, node.location.clone(), path, self.problems)
+            });
         }
         self.problems
             .at(&node.location, format!("`{path}` must be a table"))
@@ -249,41 +328,17 @@ impl<'a> TableReader<'a> {
     /// problems are reported.
     pub(crate) fn tables<T>(
         &mut self,
-        row: &Row<Tables, Required>,
-        read: impl FnMut(TableReader<'a>) -> Option<T>,
-    ) -> Option<Located<Vec<T>>> {
-        if self.has(row) {
-            return self.items(row.name, &row.kind, read);
-        }
-        let path = join(&self.path, row.name);
-        let problem = Diagnostic::at(&self.location, format!("missing key `{path}`"))
-            .help(array_of_tables(&path, row.name));
-        self.report_missing(&[row.name], problem);
-        None
-    }
-
-    /// The same of an array that may be left out.
-    pub(crate) fn optional_tables<T>(
-        &mut self,
-        row: &Row<Tables, Optional>,
-        read: impl FnMut(TableReader<'a>) -> Option<T>,
-    ) -> Option<Vec<T>> {
-        match self.has(row) {
-            true => self
-                .items(row.name, &row.kind, read)
-                .map(|items| items.value),
-            false => Some(Vec::new()),
-        }
-    }
-
-    fn items<T>(
-        &mut self,
-        key: &str,
-        kind: &Tables,
+        key: &Key,
         mut read: impl FnMut(TableReader<'a>) -> Option<T>,
     ) -> Option<Located<Vec<T>>> {
-        let node = &self.find(key)?.node;
-        let path = join(&self.path, key);
+        let Some(node) = self.node(key) else {
+            if key.is_required() {
+                self.report_absent(key);
+                return None;
+            }
+            return Some(self.in_place_of(key.name, Vec::new()));
+        };
+        let (name, path) = (key.name, join(&self.path, key.name));
         let Value::Array(items) = &node.value else {
             self.problems
                 .at(
@@ -291,16 +346,16 @@ impl<'a> TableReader<'a> {
                     format!("`{path}` must be an array of tables"),
                 )
                 .because(format!("found {}", node.describe()))
-                .help(array_of_tables(&path, key));
+                .help(array_of_tables(&path, name));
             return None;
         };
-        if items.len() > kind.most {
+        if let Kind::Tables(_, most, instead) = key.kind
+            && items.len() > most
+        {
+            let message = format!("{} {name} are too many", items.len());
             self.problems
-                .at(
-                    &node.location,
-                    format!("{} {key} are too many", items.len()),
-                )
-                .help(format!("give at most {}{}", kind.most, kind.instead));
+                .at(&node.location, message)
+                .help(format!("give at most {most}{instead}"));
             return None;
         }
         let readers = items.iter().enumerate().map(|(index, item)| {
@@ -315,54 +370,27 @@ impl<'a> TableReader<'a> {
     }
 
     /// Reports a key that must be there and is not.
-    pub(crate) fn report_absent<K: Describe, P>(&mut self, row: &Row<K, P>) {
-        self.report_none(row.name, &row.kind);
-    }
-
-    /// The same of a key of this name, under which a value of this kind should stand.
-    pub(super) fn report_none(&mut self, key: &str, kind: &dyn Describe) {
-        let message = format!("missing key `{}`", join(&self.path, key));
-        let example = format!("`{key} = {}`", kind.example());
-        let problem = Diagnostic::at(&self.location, message);
-        let problem = if self.location.is_whole() {
-            problem.help(format!("add {example} above the first table"))
-        } else {
-            problem
-                .because(format!("needs `{key}`, {}", kind.expected()))
-                .help(format!("add {example}"))
-        };
-        self.report_missing(&[key], problem);
-    }
-
-    /// What stands under a key, where it is there; `None` where that is wrong, which is reported.
-    pub(super) fn optional<K: Kind, P>(
-        &mut self,
-        row: &Row<K, P>,
-    ) -> Option<Option<Located<K::Value>>> {
-        self.under(row.name, &row.kind)
-    }
-
-    /// The same of a key of this name.
-    pub(super) fn under<K: Kind>(
-        &mut self,
-        key: &str,
-        kind: &K,
-    ) -> Option<Option<Located<K::Value>>> {
-        let Some(entry) = self.find(key) else {
-            return Some(None);
-        };
-        let path = join(&self.path, key);
-        let spot = Spot {
-            path: &path,
-            key: Some(key),
-        };
-        match kind.convert(&entry.node, &spot) {
-            Ok(value) => Some(Some(spot.located(value, &entry.node))),
-            Err(diagnostics) => {
-                self.problems.extend(diagnostics);
-                None
+    pub(crate) fn report_absent(&mut self, key: &Key) {
+        let path = join(&self.path, key.name);
+        let missing = |what: String| Diagnostic::at(&self.location, format!("missing {what}"));
+        let problem = missing(format!("key `{path}`"));
+        let example = format!("`{} = {}`", key.name, key.kind.example());
+        let problem = match &key.kind {
+            Kind::Table(_) => {
+                let header = header(&path);
+                missing(format!("table `{header}`")).help(format!(
+                    "add `{header}` on a line of its own, with its keys below"
+                ))
             }
-        }
+            Kind::Tables(..) => problem.help(array_of_tables(&path, key.name)),
+            _ if self.location.is_whole() => {
+                problem.help(format!("add {example} above the first table"))
+            }
+            kind => problem
+                .because(format!("needs `{}`, {}", key.name, kind.expected()))
+                .help(format!("add {example}")),
+        };
+        self.report_missing(&[key.name], problem);
     }
 
     /// A value that counts because the key is absent: its place is the table.
@@ -410,20 +438,17 @@ pub(in crate::input) fn in_backticks(keys: &[&str]) -> String {
 /// Reading in tests, by names in place of rows.
 #[cfg(test)]
 pub(in crate::input) mod by_name {
-    use super::{Located, TableReader, kind};
-    use crate::input::document::kind::{Tables, Text, number, quantity};
-    use crate::input::document::row::table;
-    use crate::input::document::row::{Presence, Required, Row, Rows};
+    use super::{Located, TableReader};
     use crate::quantity::Dimension;
+    use crate::quantity::block::Field;
+    use crate::quantity::key::{Key, Kind, Presence, number, quantity};
+    use crate::quantity::rows::{Rows, table};
+    use crate::quantity::setting::Value;
 
     pub(in crate::input) static NOTHING: Rows = table("", &[]);
 
-    pub(in crate::input) fn key<K, P: Presence<K>>(
-        name: &'static str,
-        kind: K,
-        presence: P,
-    ) -> Row<K, P> {
-        Row {
+    pub(in crate::input) const fn key(name: &'static str, kind: Kind, presence: Presence) -> Key {
+        Key {
             name,
             kind,
             presence,
@@ -431,20 +456,25 @@ pub(in crate::input) mod by_name {
         }
     }
 
-    pub(in crate::input) fn below(name: &'static str) -> Row<kind::Table, Required> {
-        key(name, kind::Table(&NOTHING), Required)
+    pub(in crate::input) const fn below(name: &'static str) -> Key {
+        key(name, Kind::Table(&NOTHING), Presence::Required)
     }
 
-    pub(in crate::input) fn items<P: Presence<Tables>>(
-        name: &'static str,
-        presence: P,
-    ) -> Row<Tables, P> {
-        let kind = Tables {
-            rows: &NOTHING,
-            most: 2,
-            instead: ", or a table",
-        };
-        key(name, kind, presence)
+    pub(in crate::input) const fn items(name: &'static str, presence: Presence) -> Key {
+        key(name, Kind::Tables(&NOTHING, 2, ", or a table"), presence)
+    }
+
+    /// What stands under a key, whatever it is.
+    pub(in crate::input) fn look(table: &mut TableReader<'_>, key: &Key) -> Option<Value> {
+        match table.under(key)? {
+            Some(found) => Some(found.value),
+            None => key.default().or_else(|| {
+                if key.is_required() {
+                    table.report_absent(key);
+                }
+                None
+            }),
+        }
     }
 
     pub(in crate::input) struct ByName<'a>(pub(in crate::input) TableReader<'a>);
@@ -464,7 +494,7 @@ pub(in crate::input) mod by_name {
             name: &'static str,
         ) -> Option<Located<Vec<Self>>> {
             self.0
-                .tables(&items(name, Required), |item| Some(Self(item)))
+                .tables(&items(name, Presence::Required), |item| Some(Self(item)))
         }
 
         pub(in crate::input) fn quantity(
@@ -472,32 +502,34 @@ pub(in crate::input) mod by_name {
             name: &'static str,
             dimension: Dimension,
         ) -> Option<Located<f64>> {
-            self.0.read(&key(name, quantity(dimension), Required))
+            self.read(name, Kind::Number(quantity(dimension)))
         }
 
         pub(in crate::input) fn number(&mut self, name: &'static str) -> Option<Located<f64>> {
-            self.0.read(&key(name, number("1.0"), Required))
+            self.read(name, Kind::Number(number("1.0")))
         }
 
         pub(in crate::input) fn string(&mut self, name: &'static str) -> Option<Located<String>> {
-            self.0.read(&key(name, Text, Required))
+            self.read(name, Kind::Text)
+        }
+
+        fn read<T: Field>(&mut self, name: &'static str, kind: Kind) -> Option<Located<T>> {
+            self.0.read(&key(name, kind, Presence::Required))
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::by_name::{NOTHING, below, items, key};
+    use super::by_name::{NOTHING, below, items, key, look};
     use crate::input::diagnostic::{Problems, Styling};
-    use crate::input::document::kind::{
-        Array, Boolean, Choice, Integer, Table, Text, list, number, quantity,
-    };
     use crate::input::document::reader::TableReader;
-    use crate::input::document::row::{AnyRow, Optional, Or, Required, Row};
-    use crate::input::document::{Document, plain};
+    use crate::input::document::{Document, Located};
     use crate::quantity::Dimension::{Angle, Force, Frequency, Stress, Time};
+    use crate::quantity::key::Presence::{Optional, Or, Required};
+    use crate::quantity::key::{Entries, Key, Kind, number, quantity};
 
-    const CONTROLS: Choice<()> = Choice(&[("load", ()), ("approach", ())]);
+    const CONTROLS: Kind = Kind::Word(&["load", "approach"]);
 
     /// What is reported when `read` reads `text` with `flags` set.
     fn report_with(text: &str, flags: &[&str], read: impl FnOnce(TableReader<'_>)) -> String {
@@ -519,19 +551,49 @@ mod tests {
 
     /// Reads every kind of key that a sweep file has.
     fn read_sweep(mut root: TableReader<'_>) {
-        let _ = root.read(&key("title", Text, Optional));
+        let _ = look(&mut root, &key("title", Kind::Text, Optional));
         if let Some(mut drive) = root.table(&below("drive")) {
-            let _ = drive.read(&key("control", CONTROLS, Required));
-            let _ = drive.read(&key("mean", quantity(Force), Required));
-            let _ = drive.read(&key("amplitude", quantity(Force), Required));
-            let _ = drive.read(&key("phase", quantity(Angle), Or(0.0)));
+            let _ = look(&mut drive, &key("control", CONTROLS, Required));
+            let _ = look(
+                &mut drive,
+                &key("mean", Kind::Number(quantity(Force)), Required),
+            );
+            let _ = look(
+                &mut drive,
+                &key("amplitude", Kind::Number(quantity(Force)), Required),
+            );
+            let _ = look(
+                &mut drive,
+                &key(
+                    "phase",
+                    Kind::Number(quantity(Angle)),
+                    Or(|| Some(0.0.into())),
+                ),
+            );
             drive.finish();
         }
-        let cycle = key("cycle", Table(&NOTHING), Optional);
+        let cycle = key("cycle", Kind::Table(&NOTHING), Optional);
         let _ = root.table_or(&cycle, (), |mut cycle| {
-            let _ = cycle.read(&key("steps", Integer(8..=10_000), Or(100)));
-            let _ = cycle.read(&key("tolerance", number("1e-4"), Or(1e-4)));
-            let _ = cycle.read(&key("keep_history", Boolean, Or(false)));
+            let _ = look(
+                &mut cycle,
+                &key(
+                    "steps",
+                    Kind::Integer(8..=10_000),
+                    Or(|| Some(100_usize.into())),
+                ),
+            );
+            let _ = look(
+                &mut cycle,
+                &key(
+                    "tolerance",
+                    Kind::Number(number("1e-4")),
+                    Or(|| Some(1e-4.into())),
+                ),
+            );
+            let _ = look(
+                &mut cycle,
+                &key("keep_history", Kind::Flag, Or(|| Some(false.into()))),
+            );
             cycle.finish();
             None
         });
@@ -652,11 +714,24 @@ mod tests {
         let text = "[material]\npoisson_ratio = 0.38\n[material.relaxation.branches]\n";
         let text = report(text, |mut root| {
             let mut material = root.table(&below("material")).expect("it is there");
-            let _ = material.read(&key("poisson_ratio", number("0.4"), Required));
+            let _ = look(
+                &mut material,
+                &key("poisson_ratio", Kind::Number(number("0.4")), Required),
+            );
             let mut relaxation = material.table(&below("relaxation")).expect("it is there");
             let mut branches = relaxation.table(&below("branches")).expect("it is there");
-            let _ = relaxation.read(&key("equilibrium", quantity(Stress), Required));
-            let _ = branches.read(&key("times", list(quantity(Time)), Required));
+            let _ = look(
+                &mut relaxation,
+                &key("equilibrium", Kind::Number(quantity(Stress)), Required),
+            );
+            let _ = look(
+                &mut branches,
+                &key(
+                    "times",
+                    Kind::Numbers(quantity(Time), Entries::ANY),
+                    Required,
+                ),
+            );
             let _ = material.table(&below("creep"));
         });
         insta::assert_snapshot!(text, @r#"
@@ -689,7 +764,7 @@ mod tests {
     #[test]
     fn a_missing_key_of_the_top_belongs_above_the_first_table() {
         let text = report("[drive]\n", |mut root| {
-            let _ = root.read(&key("title", Text, Required));
+            let _ = look(&mut root, &key("title", Kind::Text, Required));
         });
         insta::assert_snapshot!(text, @r#"
         error: missing key `title`
@@ -998,8 +1073,14 @@ tolerance = 1e-400
         let read = |mut root: TableReader<'_>| {
             let mut drive = root.table(&below("drive")).expect("it is there");
             let read = drive.tables(&items("segments", Required), |mut segment| {
-                let _ = segment.read(&key("to", quantity(Force), Required));
-                let _ = segment.read(&key("duration", quantity(Time), Required));
+                let _ = look(
+                    &mut segment,
+                    &key("to", Kind::Number(quantity(Force)), Required),
+                );
+                let _ = look(
+                    &mut segment,
+                    &key("duration", Kind::Number(quantity(Time)), Required),
+                );
                 segment.finish();
                 Some(())
             });
@@ -1051,8 +1132,8 @@ tolerance = 1e-400
             for wrong in ["a", "b", "c"] {
                 assert!(root.tables(&items(wrong, Required), |_| Some(())).is_none());
             }
-            let absent = root.optional_tables(&items("d", Optional), |_| Some(()));
-            assert_eq!(absent, Some(Vec::new()));
+            let absent = root.tables(&items("d", Optional), |_| Some(()));
+            assert_eq!(absent.map(|absent| absent.value), Some(Vec::new()));
         });
         insta::assert_snapshot!(text, @r#"
         error: missing key `c`
@@ -1082,11 +1163,15 @@ tolerance = 1e-400
         let text = "f = [\"1 Hz\", \"2 N\", 3, true]\ng = true\nh = [1, \"2\"]\n";
         let text = report(text, |mut root| {
             for wrong in ["f", "g"] {
-                let row = key(wrong, list(quantity(Frequency)), Required);
-                assert!(root.read(&row).is_none());
+                let row = key(
+                    wrong,
+                    Kind::Numbers(quantity(Frequency), Entries::ANY),
+                    Required,
+                );
+                assert!(look(&mut root, &row).is_none());
             }
-            let numbers = key("h", list(number("2.0")), Required);
-            assert!(root.read(&numbers).is_none());
+            let numbers = key("h", Kind::Numbers(number("2.0"), Entries::ANY), Required);
+            assert!(look(&mut root, &numbers).is_none());
         });
         insta::assert_snapshot!(text, @r#"
         error: `f[1]` must be a frequency
@@ -1126,19 +1211,11 @@ tolerance = 1e-400
 
     #[test]
     fn one_of_several_keys_must_be_given_and_only_one() {
-        const fn text(name: &'static str) -> Row<Text, Required> {
-            Row {
-                name,
-                kind: Text,
-                presence: Required,
-                means: "",
-            }
-        }
-        static WORDS: [Row<Text, Required>; 3] =
-            [text("library"), text("relaxation"), text("creep")];
+        let words = ["library", "relaxation", "creep"];
+        let words: [Key; 3] = words.map(|name| key(name, Kind::Text, Required));
         let read = |mut root: TableReader<'_>| {
             let mut material = root.table(&below("material")).expect("it is there");
-            let keys = WORDS.each_ref().map(|row| (row as &dyn AnyRow, ()));
+            let keys = words.each_ref().map(|key| (key, ()));
             assert_eq!(material.one_of(&keys), None);
             material.finish();
         };
@@ -1179,12 +1256,20 @@ tolerance = 1e-400
         let document = Document::parse("sweep.toml", "a = 1\nt = {}\n").expect("it is TOML");
         let problems = Problems::new();
         let mut root = document.root(&problems);
-        let (absent, present) = (number("1.0"), number("1.0"));
-        assert_eq!(root.value(&key("b", absent, Or(2.5))), Some(2.5));
-        assert_eq!(root.value(&key("a", present, Or(2.5))), Some(1.0));
-        let choice = key("c", Choice(&[("x", 1), ("y", 2)]), Or(2));
-        assert_eq!(root.value(&choice), Some(2));
-        assert_eq!(root.value(&key("d", quantity(Time), Optional)), Some(None));
+        let [absent, present] = [number("1.0"); 2].map(Kind::Number);
+        assert_eq!(
+            root.value(&key("b", absent, Or(|| Some(2.5.into())))),
+            Some(2.5)
+        );
+        assert_eq!(
+            root.value(&key("a", present, Or(|| Some(2.5.into())))),
+            Some(1.0)
+        );
+        let choice = key("c", Kind::Word(&["x", "y"]), Or(|| Some("y".into())));
+        assert_eq!(root.value(&choice), Some("y".to_owned()));
+        let absent: Option<Option<f64>> =
+            root.value(&key("d", Kind::Number(quantity(Time)), Optional));
+        assert_eq!(absent, Some(None));
         assert!(root.has(&below("t")) && !root.has(&choice));
         root.finish();
         assert!(problems.is_empty());
@@ -1195,9 +1280,9 @@ tolerance = 1e-400
         let text = report(DRIVE, |mut root| {
             let problems = root.problems;
             let mut drive = root.table(&below("drive")).expect("it is there");
-            let force = |name| key(name, quantity(Force), Required);
-            let mean = drive.read(&force("mean")).expect("right");
-            let amplitude = drive.read(&force("amplitude")).expect("right");
+            let force = |name| key(name, Kind::Number(quantity(Force)), Required);
+            let mean: Located<f64> = drive.read(&force("mean")).expect("right");
+            let amplitude: Located<f64> = drive.read(&force("amplitude")).expect("right");
             assert_eq!(amplitude.path, "drive.amplitude");
             problems
                 .at(&amplitude, "the load becomes negative within a cycle")
@@ -1243,29 +1328,37 @@ tolerance = 1e-400
         let text = "a = \"0 N\"\nb = -1\nc = \"2 m\"\nd = 0.6\ne = [1, 1]\nf = []\ng = [\"1 s\"]\n";
         let text = report(text, |mut root| {
             assert!(
-                root.read(&key("a", quantity(Force).above_zero(), Required))
-                    .is_none()
+                look(
+                    &mut root,
+                    &key("a", Kind::Number(quantity(Force).above_zero()), Required)
+                )
+                .is_none()
             );
-            let hold = quantity(Time).not_negative().or_else("leave it out");
-            assert!(root.read(&key("b", hold, Required)).is_none());
-            let width = quantity(Length).within(Limits::between(0.02, 1.0));
-            assert!(root.read(&key("c", width, Optional)).is_none());
+            let hold = Kind::Number(quantity(Time).not_negative().or_else("leave it out"));
+            assert!(look(&mut root, &key("b", hold, Required)).is_none());
+            let width = Kind::Number(quantity(Length).within(Limits::between(0.02, 1.0)));
+            assert!(look(&mut root, &key("c", width, Optional)).is_none());
             let ratio = Limits::new(Bound::Excluded(-1.0), Bound::Included(0.5));
             assert!(
-                root.read(&key("d", number("0.4").within(ratio), Or(0.4)))
-                    .is_none()
+                look(
+                    &mut root,
+                    &key(
+                        "d",
+                        Kind::Number(number("0.4").within(ratio)),
+                        Or(|| Some(0.4.into()))
+                    )
+                )
+                .is_none()
             );
-            let once = |instead| Array {
-                entries: 1..=3,
-                repeats: false,
-                instead,
-                ..list(number("1.0"))
+            let once = |instead| {
+                let entries = Entries {
+                    repeats: false,
+                    ..Entries::of(1..=3, instead)
+                };
+                Kind::Numbers(number("1.0"), entries)
             };
-            assert!(root.read(&key("e", once(""), Required)).is_none());
-            assert!(
-                root.read(&key("f", once("leave it out"), Required))
-                    .is_none()
-            );
+            assert!(look(&mut root, &key("e", once(""), Required)).is_none());
+            assert!(look(&mut root, &key("f", once("leave it out"), Required)).is_none());
             root.finish();
         });
         insta::assert_snapshot!(text, @r#"
@@ -1335,10 +1428,18 @@ tolerance = 1e-400
         let text = report(
             "f = \"45 Hz\"\nw = [\"1 Hz\", 2, \"3 rad/s\"]\n",
             |mut root| {
-                let frequency = key("f", list(quantity(Frequency)), Required);
-                assert_eq!(root.value(&frequency).map(plain), Some(vec![45.0]));
-                let angular = key("w", list(quantity(AngularFrequency)), Required);
-                let values = root.value(&angular).map(plain);
+                let frequency = key(
+                    "f",
+                    Kind::Numbers(quantity(Frequency), Entries::ANY),
+                    Required,
+                );
+                assert_eq!(root.value(&frequency), Some(vec![45.0]));
+                let angular = key(
+                    "w",
+                    Kind::Numbers(quantity(AngularFrequency), Entries::ANY),
+                    Required,
+                );
+                let values = root.value(&angular);
                 assert_eq!(values, Some(vec![std::f64::consts::TAU, 2.0, 3.0]));
             },
         );

@@ -5,11 +5,20 @@ pub(crate) mod drive;
 pub(super) mod fractional;
 pub(crate) mod identify;
 pub(crate) mod material;
-pub(super) mod settings;
 pub(super) mod setup;
 
-use super::document::kind::{Table, Text};
-use super::document::row::{Optional, Required, Row, Rows, rows, table};
+use super::axis::AxisOf;
+use super::document::row::keys;
+use super::scenario_file::TimePlan;
+use super::{figures_block, indenter_block, segments_block};
+use crate::engine::SolverPlan;
+use crate::quantity::block::Block as _;
+use crate::quantity::key::{Key, Kind};
+use crate::quantity::rows::{Rows, table};
+use crate::simulation::scenario::OutputPlan;
+use crate::sweep::plan::CyclePlan;
+use crate::sweep::plan::adhesion::AdhesionPlan;
+use crate::sweep::plan::layer::LayerPlan;
 use contact_dma_core::words;
 
 words! {
@@ -38,62 +47,62 @@ impl FileKind {
     }
 }
 
-rows! { SWEEP_KEYS:
+keys! {
     /// Title of figures, tables and the page.
-    TITLE: Row<Text, Required> = "title", Text, Required;
+    TITLE = "title", Kind::Text;
     /// Material of the half-space.
-    MATERIAL: Row<Table, Required> = "material", Table(&material::MATERIAL), Required;
+    MATERIAL = "material", Kind::Table(&material::MATERIAL);
     /// The body is a layer on a base instead of a half-space.
-    LAYER: Row<Table, Optional> = "layer", Table(&settings::LAYER), Optional;
-    /// The indenter.
-    INDENTER: Row<Table, Required> = "indenter", Table(&super::indenter_block::INDENTER), Required;
-    /// The load or the approach: an oscillation about a mean.
-    DRIVE: Row<Table, Required> = "drive", Table(&drive::HARMONIC), Required;
-    /// Adhesion of a sphere under a prescribed load.
-    ADHESION: Row<Table, Optional> = "adhesion", Table(&settings::ADHESION), Optional;
-    /// The frequencies, and optional further axes.
-    SWEEP: Row<Table, Required> = "sweep", Table(&drive::SWEEP), Required;
-    /// Resolution of a cycle, and when it counts as stabilised.
-    CYCLE: Row<Table, Optional> = "cycle", Table(&settings::CYCLE), Optional;
-    /// Contact engine and its resolution.
-    SOLVER: Row<Table, Optional> = "solver", Table(&settings::SOLVER), Optional;
-    /// Appearance of figures; does not affect results.
-    FIGURES: Row<Table, Optional> = "figures", Table(&settings::SWEEP_FIGURES), Optional;
-}
-
-pub(super) static SWEEP_FILE: Rows =
-    table(" A frequency sweep, for `contact-dma sweep`.", SWEEP_KEYS);
-
-rows! { _:
+    LAYER = "layer", Kind::Table(&LayerPlan::ROWS), optional;
     /// The layer, where an axis needs one.
-    NEEDED_LAYER: Row<Table, Required> = "layer", Table(&settings::LAYER), Required;
-}
-
-rows! { _:
-    /// The load or the approach: a history of segments.
-    HISTORY: Row<Table, Required> = "drive", Table(&super::segments_block::HISTORY), Required;
-    /// Time steps.
-    TIME: Row<Table, Optional> = "time", Table(&settings::TIME), Optional;
-    /// What is written in addition to the history.
-    OUTPUT: Row<Table, Optional> = "output", Table(&settings::OUTPUT), Optional;
+    NEEDED_LAYER = "layer", Kind::Table(&LayerPlan::ROWS);
+    /// The indenter.
+    INDENTER = "indenter", Kind::Table(&indenter_block::INDENTER);
+    /// The load or the approach: an oscillation about a mean.
+    DRIVE = "drive", Kind::Table(&drive::HARMONIC);
+    /// Adhesion of a sphere under a prescribed load.
+    ADHESION = "adhesion", Kind::Table(&AdhesionPlan::ROWS), optional;
+    /// The frequencies, and optional further axes.
+    SWEEP = "sweep", Kind::Table(&drive::SWEEP);
+    /// Resolution of a cycle, and when it counts as stabilised.
+    CYCLE = "cycle", Kind::Table(&CyclePlan::ROWS), optional;
+    /// Contact engine and its resolution.
+    SOLVER = "solver", Kind::Table(&SolverPlan::ROWS), optional;
     /// Appearance of figures; does not affect results.
-    SCENARIO_FIGURES: Row<Table, Optional> = "figures", Table(&settings::FIGURES), Optional;
+    FIGURES = "figures", Kind::Table(&figures_block::OF_SWEEP), optional;
+    /// The load or the approach: a history of segments.
+    HISTORY = "drive", Kind::Table(&segments_block::HISTORY);
+    /// Time steps.
+    TIME = "time", Kind::Table(&TimePlan::ROWS), optional;
+    /// What is written in addition to the history.
+    OUTPUT = "output", Kind::Table(&OutputPlan::ROWS), optional;
+    /// Appearance of figures; does not affect results.
+    SCENARIO_FIGURES = "figures", Kind::Table(&figures_block::OF_SCENARIO), optional;
 }
 
+const SWEEP_KEYS: &[Key] = &[
+    TITLE, MATERIAL, LAYER, INDENTER, DRIVE, ADHESION, SWEEP, CYCLE, SOLVER, FIGURES,
+];
+const SCENARIO_KEYS: &[Key] = &[
+    TITLE,
+    MATERIAL,
+    LAYER,
+    INDENTER,
+    ADHESION,
+    HISTORY,
+    TIME,
+    OUTPUT,
+    SOLVER,
+    SCENARIO_FIGURES,
+];
+
+pub(super) static SWEEP_FILE: Rows = table(
+    " A frequency sweep, for `contact-dma sweep`.",
+    &[SWEEP_KEYS],
+);
 static SCENARIO_FILE: Rows = table(
     " One drive history, for `contact-dma simulate`.",
-    &[
-        &TITLE,
-        &MATERIAL,
-        &LAYER,
-        &INDENTER,
-        &ADHESION,
-        &HISTORY,
-        &TIME,
-        &OUTPUT,
-        &SOLVER,
-        &SCENARIO_FIGURES,
-    ],
+    &[SCENARIO_KEYS],
 );
 
 /// The keys of the table that a dotted path names, `drive.segments[0]`: one answer for each kind of file that has it.
@@ -105,8 +114,8 @@ pub(super) fn tables_at(path: &str) -> Vec<&'static Rows> {
     for key in path.split('.').filter(|key| !key.is_empty()) {
         let key = key.split('[').next().unwrap_or(key);
         let below = tables.iter().flat_map(|rows| rows.all());
-        let below = below.filter(|row| row.name() == key);
-        tables = below.filter_map(|row| row.kind().rows()).collect();
+        let below = below.filter(|known| known.name == key);
+        tables = below.filter_map(|known| known.kind.rows()).collect();
     }
     tables
 }
@@ -115,9 +124,9 @@ pub(super) fn tables_at(path: &str) -> Vec<&'static Rows> {
 pub fn words() -> Vec<&'static str> {
     let mut words = Vec::new();
     for (_, kind) in FileKind::NAMES {
-        kind.rows().visit("", &mut |_, row| {
-            words.push(row.name());
-            words.extend(row.kind().words());
+        kind.rows().visit("", &mut |_, key| {
+            words.push(key.name);
+            words.extend(key.kind.words());
         });
     }
     words.sort_unstable();
@@ -128,12 +137,14 @@ pub fn words() -> Vec<&'static str> {
 /// The dotted path of every key of a kind of file that no table stands under, without the places in lists. Sorted.
 pub fn paths(kind: FileKind) -> Vec<String> {
     let mut paths = Vec::new();
-    kind.rows()
-        .visit("", &mut |path, row| match row.kind().axes() {
-            Some(axes) => paths.extend(axes.references().keys().map(|key| format!("{path}.{key}"))),
-            None if row.kind().rows().is_none() => paths.push(path.to_owned()),
-            None => {}
-        });
+    kind.rows().visit("", &mut |path, key| match &key.kind {
+        Kind::Axes(axes) => {
+            let references = AxisOf::new(axes).references();
+            paths.extend(references.keys().map(|key| format!("{path}.{key}")));
+        }
+        kind if kind.rows().is_none() => paths.push(path.to_owned()),
+        _ => {}
+    });
     paths.sort_unstable();
     paths.dedup();
     paths

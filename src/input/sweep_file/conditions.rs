@@ -9,9 +9,7 @@ use crate::indenter::Indenter;
 use crate::input::adhesion_block::{self, Attraction};
 use crate::input::axis::{self, Swept};
 use crate::input::diagnostic::Problems;
-use crate::input::document::kind::Table;
 use crate::input::document::reader::TableReader;
-use crate::input::document::row::{Required, Row};
 use crate::input::document::tree;
 use crate::input::document::{Located, block};
 use crate::input::given::Given;
@@ -21,6 +19,7 @@ use crate::input::material_table::DirectSum;
 use crate::input::{indenter_block, keys, material_block, solver_block};
 use crate::material::{Creep, Material};
 use crate::quantity::Dimension;
+use crate::quantity::key::Key;
 use crate::simulation::body_material::BodyMaterial;
 use crate::sweep::plan::axes::GivenBlocks;
 use crate::sweep::plan::contact::ContactPlan;
@@ -235,7 +234,7 @@ impl File<'_> {
     fn block<T: Clone>(
         &self,
         root: &mut TableReader<'_>,
-        row: &Row<Table, Required>,
+        row: &Key,
         swept: Vec<(usize, &Swept)>,
         read: impl Fn(TableReader<'_>) -> Option<T>,
     ) -> Option<Over<T>> {

@@ -1,30 +1,76 @@
 //! How the figures of a sweep or scenario are to look: the `[figures]` table. It is kept with the resolved file and is no part
 //! of its hash: figures drawn in another way are of the same sweep.
 
-use crate::quantity::setting::{Table, Value};
-use crate::quantity::{Dimension, FrequencyUnit};
-use crate::words;
+use std::borrow::Cow;
+use std::ops::RangeInclusive;
 
-/// What the `[figures]` table asks for. Where it asks for nothing, figures are 800 px wide with text of 16 px (211.7 mm and 12 pt
-/// on a screen of 96 dpi), as SVG and as PNG of one and of two pixels per px; PDF is there to be asked for.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FigurePlan {
-    /// Frequencies (rad/s) whose cycles are drawn; empty: chosen from the sweep.
-    pub loops_rad_per_s: Vec<f64>,
-    /// Width and height on paper (m).
-    pub width_m: Option<f64>,
-    pub height_m: Option<f64>,
-    /// Size (pt) of the text at ticks, in legends and at marks; titles of axes are an eighth larger.
-    pub font_size_pt: Option<f64>,
-    /// At least one, each once.
-    pub formats: Vec<Format>,
-    /// Pixels of a PNG per inch on paper.
-    pub dpi: Option<usize>,
-    pub axes: AxisUnits,
-    /// The unit in which frequencies are reported, by tables and text too.
-    pub frequency_unit: FrequencyUnit,
-    /// Whether pictures that have a title above the frame show it.
-    pub titles: bool,
+use crate::quantity::Dimension::{AngularFrequency, Length};
+use crate::quantity::FrequencyUnit;
+use crate::quantity::block::Block as _;
+use crate::quantity::key::{Entries, Kind, Limits, Number, number, quantity};
+use crate::quantity::setting::{Setting, Table};
+use crate::{block_with_defaults, words};
+
+/// Sides, text and resolutions beyond these are a slip of the pen rather than a wish.
+const SIDE: Number = quantity(Length)
+    .such_as("\"85 mm\"")
+    .within(Limits::between(0.02, 1.0).or_else("a figure one column wide has \"85 mm\""));
+const FONT_SIZE: Limits = Limits::between(4.0, 36.0)
+    .or_else("write a number of points without a unit, such as `font_size = 8`");
+const DPI: RangeInclusive<usize> = 30..=2400;
+const FORMATS: Entries = Entries {
+    repeats: false,
+    ..Entries::of(
+        1..=Format::WORDS.len(),
+        "write at least one of \"svg\", \"png\" and \"pdf\", or leave it out",
+    )
+};
+/// More loops than this cannot be told apart.
+const MOST_LOOPS: usize = 8;
+
+block_with_defaults! {
+    /// Appearance of figures; does not affect results, and all of it is optional.
+    pub struct FigurePlan in "figures" {
+        /// Frequencies whose loops are drawn (the nearest cases); left out: chosen automatically. Hz is accepted too.
+        loops_rad_per_s: Vec<f64> = Vec::new() => "loops",
+            Kind::Numbers(quantity(AngularFrequency), Entries::of(1..=MOST_LOOPS, "a figure shows 1 to 8 loops; leave it out and some are chosen")), chosen;
+        /// Unit of frequencies in figures, tables and text; left out: that used in `[sweep]`.
+        frequency_unit: FrequencyUnit = FrequencyUnit::RadPerS => "frequency_unit", Kind::Word(FrequencyUnit::WORDS), chosen;
+        /// Width and text for one (85 mm) or two (180 mm) columns of a journal, in place of `width`.
+        column: Option<Column> = None => "column", Kind::Word(Column::WORDS);
+        /// Width on paper.
+        width_m: Option<f64> = None => "width", Kind::Number(SIDE);
+        /// Height on paper; left out: chosen from the contents.
+        height_m: Option<f64> = None => "height", Kind::Number(SIDE);
+        /// Size (pt) of ticks and legends; titles of axes are an eighth larger.
+        font_size_pt: Option<f64> = None => "font_size", Kind::Number(number("8").within(FONT_SIZE));
+        /// File formats; left out: SVG and PNG. PDFs contain text as text, for LaTeX.
+        formats: Cow<'static, [Format]> = Cow::Borrowed(&[Format::Svg, Format::Png]) => "formats", Kind::Words(Format::WORDS, FORMATS), chosen;
+        /// Pixels of a PNG per inch on paper; left out: 300 if a size is given, otherwise one and two pixels per px of the drawing.
+        dpi: Option<usize> = None => "dpi", Kind::Integer(DPI);
+        /// SI units, or units of the elastic contact.
+        axes: AxisUnits = AxisUnits::Si => "axes", Kind::Word(AxisUnits::WORDS), chosen;
+        /// Whether figures have titles above the frame; left out: yes.
+        titles: bool = true => "titles", Kind::Flag, chosen;
+    }
+}
+
+impl Column {
+    /// Width on paper (m).
+    pub fn width_m(self) -> f64 {
+        match self {
+            Self::One => 0.085,
+            Self::Two => 0.180,
+        }
+    }
+}
+
+words! {
+    /// Columns of a journal.
+    pub enum Column {
+        One = "one",
+        Two = "two",
+    }
 }
 
 words! {
@@ -46,50 +92,13 @@ words! {
     }
 }
 
-impl Default for FigurePlan {
-    fn default() -> Self {
-        Self {
-            loops_rad_per_s: Vec::new(),
-            width_m: None,
-            height_m: None,
-            font_size_pt: None,
-            formats: vec![Format::Svg, Format::Png],
-            dpi: None,
-            axes: AxisUnits::Si,
-            frequency_unit: FrequencyUnit::RadPerS,
-            titles: true,
-        }
-    }
-}
-
 impl FigurePlan {
     /// The table at the end of a resolved file: what differs from the default, nothing where nothing does.
     pub fn text(&self) -> String {
-        let default = Self::default();
-        let length = |value_m: f64| Value::Quantity(value_m, Dimension::Length);
-        let loops = (!self.loops_rad_per_s.is_empty())
-            .then(|| Value::Quantities(self.loops_rad_per_s.clone(), Dimension::AngularFrequency));
-        let named = |format: &Format| Format::NAMES.iter().find(|(_, other)| other == format);
-        let formats = self.formats.iter().filter_map(named);
-        let formats = Value::Texts(formats.map(|(name, _)| (*name).to_owned()).collect());
-        let is_normalised = self.axes == AxisUnits::Normalised;
-        let is_in_hz = self.frequency_unit == FrequencyUnit::Hz;
-        let table = Table::new("figures")
-            .with_some("loops", loops)
-            .with_some("width", self.width_m.map(length))
-            .with_some("height", self.height_m.map(length))
-            .with_some("font_size", self.font_size_pt)
-            .with_some(
-                "formats",
-                (self.formats != default.formats).then_some(formats),
-            )
-            .with_some("dpi", self.dpi)
-            .with_some("axes", is_normalised.then_some("normalised"))
-            .with_some("frequency_unit", is_in_hz.then_some("Hz"))
-            .with_some("titles", (!self.titles).then_some(false));
-        table
-            .unless_empty()
-            .map_or(String::new(), |table| table.toml())
+        let default: Vec<Setting> = Self::DEFAULT.settings().collect();
+        let asked = self.settings().filter(|own| !default.contains(own));
+        let table = Table::new(Self::NAME).and(asked).unless_empty();
+        table.map_or(String::new(), |table| table.toml())
     }
 }
 
@@ -100,10 +109,11 @@ mod tests {
     fn everything() -> FigurePlan {
         FigurePlan {
             loops_rad_per_s: vec![1e-3, 0.1],
+            column: None,
             width_m: Some(0.085),
             height_m: Some(0.06),
             font_size_pt: Some(7.0),
-            formats: vec![Format::Png, Format::Pdf],
+            formats: Cow::Borrowed(&[Format::Png, Format::Pdf]),
             dpi: Some(600),
             axes: AxisUnits::Normalised,
             frequency_unit: FrequencyUnit::Hz,
@@ -118,8 +128,8 @@ mod tests {
         let whole = format!("{sweep}\n{}", everything().text());
         assert_eq!(
             &whole[sweep.len()..],
-            "\n[figures]\nloops = [\"0.001 rad/s\", \"0.1 rad/s\"]\nwidth = \"0.085 m\"\nheight = \"0.06 m\"\nfont_size = 7.0\n\
-             formats = [\"png\", \"pdf\"]\ndpi = 600\naxes = \"normalised\"\nfrequency_unit = \"Hz\"\ntitles = false\n"
+            "\n[figures]\nloops = [\"0.001 rad/s\", \"0.1 rad/s\"]\nfrequency_unit = \"Hz\"\nwidth = \"0.085 m\"\nheight = \"0.06 m\"\nfont_size = 7.0\n\
+             formats = [\"png\", \"pdf\"]\ndpi = 600\naxes = \"normalised\"\ntitles = false\n"
         );
     }
 }

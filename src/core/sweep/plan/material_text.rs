@@ -2,6 +2,7 @@
 
 use crate::material::{Compressibility, Material, MaterialFunction, Relaxation};
 use crate::quantity::Dimension;
+use crate::quantity::block::Block as _;
 use crate::quantity::setting::{Setting, Table, Value};
 
 /// The material as the block of a sweep file that gives the same material again.
@@ -146,14 +147,7 @@ fn series(material: &Material, rows: Rows) -> Vec<Setting> {
     let viscosity = creep.viscosity_pa_s();
     let viscosity = viscosity.map(|value| Value::Quantity(value, Dimension::Viscosity));
     let viscosity = viscosity.map(|viscosity| Setting::new("viscosity", viscosity));
-    let branches = creep.branches().iter();
-    let branches = branches.map(|b| {
-        branch(
-            "compliance",
-            (b.compliance_per_pa, Dimension::Compliance),
-            b.time_s,
-        )
-    });
+    let branches = creep.branches().iter().map(|b| b.settings().collect());
     let mut settings = vec![Setting::new("instantaneous", instantaneous)];
     settings.extend(viscosity);
     settings.push(Setting::new("branches", rows(branches.collect())));
@@ -163,16 +157,9 @@ fn series(material: &Material, rows: Rows) -> Vec<Setting> {
 fn relaxation(relaxation: &Relaxation, rows: Rows) -> Vec<Setting> {
     let equilibrium = Value::Quantity(relaxation.equilibrium_modulus(), Dimension::Stress);
     let branches = relaxation.branches().iter();
-    let branches = branches.map(|b| branch("modulus", (b.modulus_pa, Dimension::Stress), b.time_s));
+    let branches = branches.map(|b| b.settings().collect());
     vec![
         Setting::new("equilibrium", equilibrium),
         Setting::new("branches", rows(branches.collect())),
-    ]
-}
-
-fn branch(key: &'static str, (strength, of): (f64, Dimension), time_s: f64) -> Vec<Setting> {
-    vec![
-        Setting::new(key, Value::Quantity(strength, of)),
-        Setting::new("time", Value::Quantity(time_s, Dimension::Time)),
     ]
 }
