@@ -69,7 +69,9 @@ use crate::drive::{HarmonicDrive, SegmentedDrive};
 use crate::engine::SolverPlan;
 use crate::identify::data::{Measurements, TableColumns};
 use crate::indenter::Indenter;
-use crate::material::{Compressibility, Material, MaterialError, ModulusKind, Relaxation};
+use crate::material::{
+    Compressibility, Material, MaterialError, ModulusKind, Relaxation, branches_in_words,
+};
 use crate::sweep::case::SetupError;
 use crate::sweep::plan::CyclePlan;
 use crate::sweep::plan::contact::ContactPlan;
@@ -221,7 +223,8 @@ pub enum IdentifyError {
     #[error(transparent)]
     Material(#[from] MaterialError),
     #[error(
-        "the measurements hold {numbers} numbers, and a series of {branches} branches takes at least {needed}"
+        "the measurements hold {numbers} numbers, and a series of {} takes at least {needed}",
+        branches_in_words(*branches)
     )]
     TooFew {
         numbers: usize,
@@ -263,9 +266,10 @@ pub enum IdentifyError {
         why: &'static str,
     },
     #[error(
-        "the best solid of {branches} branches misses the measurements by {misfit_percent} % (root mean square), most at {place} (row \
+        "the best solid of {} misses the measurements by {misfit_percent} % (root mean square), most at {place} (row \
          {row}), where its {column} is {times} times the measured one: {few}the measurements contradict one another, the drive or \
          the indenter; check units, drive, indenter and columns",
+        branches_in_words(*branches),
         few = if *.may_have_more { "the material may have more branches than `identify.branches` asks for, or " } else { "" }
     )]
     Contradiction {

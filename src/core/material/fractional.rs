@@ -31,7 +31,7 @@ use self::band::Band;
 use self::trapezoid::trapezoidal;
 use super::error::{MaterialError, non_negative, positive, refused};
 use super::relaxation::{Relaxation, RelaxationBranch};
-use super::{Compressibility, Material, ModulusKind, Origin};
+use super::{Compressibility, Material, ModulusKind, Origin, branches_in_words};
 
 /// A fractional model: `E_inf + E (i omega tau)^a / (1 + (i omega tau)^c)`, the springpot without denominator.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,8 +48,8 @@ pub struct Fractional {
 /// How well a series stands for a model.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, thiserror::Error)]
 #[error(
-    "The {model} as a series of {branches} branches: from {:e} to {:e} rad/s its complex modulus is within {error:.1e} of the model's, and its loss modulus and loss compliance are within {loss_error:.1e} of those of the model",
-    band_rad_per_s.0, band_rad_per_s.1
+    "The {model} as a series of {}: from {:e} to {:e} rad/s its complex modulus is within {error:.1e} of the model's, and its loss modulus and loss compliance are within {loss_error:.1e} of those of the model",
+    branches_in_words(*branches), band_rad_per_s.0, band_rad_per_s.1
 )]
 pub struct Approximation {
     /// The model.

@@ -84,6 +84,14 @@ words! {
     }
 }
 
+/// `1 branch`, `3 branches`.
+pub(crate) fn branches_in_words(count: usize) -> String {
+    match count {
+        1 => "1 branch".to_owned(),
+        count => format!("{count} branches"),
+    }
+}
+
 impl MaterialFunction {
     /// The letter of the function of this kind.
     pub const fn symbol(self, kind: ModulusKind) -> char {

@@ -15,7 +15,9 @@ mod ls_dyna;
 mod number;
 
 use super::dynamic::shift_law::Wlf;
-use super::{Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch};
+use super::{
+    Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch, branches_in_words,
+};
 use crate::numerics::grid;
 use number::{digits, rounded, rounded_down};
 
@@ -264,9 +266,9 @@ impl<'a> Series<'a> {
         let kind = self.material.kind().name();
         let mut remarks = vec![
             format!(
-                "{}: {kind} relaxation series of {} branches, written by contact-dma for {}.",
+                "{}: {kind} relaxation series of {}, written by contact-dma for {}.",
                 self.title(),
-                self.own.branches().len(),
+                branches_in_words(self.own.branches().len()),
                 self.program.title(),
             ),
             "Units: Pa, s, K.".to_owned(),
