@@ -71,6 +71,7 @@
 //! | [`input`] | sweep, scenario and identification files, and the data files they name, to plans |
 //! | [`report`] | tables and figures, from records alone |
 //! | [`reproduction`] | the base paper, figure by figure; knows `reference` too, to draw closed forms and compare with them |
+//! | `repository` | what the repository repeats of tables and commands |
 //! | [`cli`] | flags to plans, outcomes to text and exit codes |
 //! | [`guide`] | how to use the program; text only |
 //!
@@ -100,5 +101,7 @@ pub mod input;
 #[cfg(feature = "tables")]
 #[cfg_attr(not(feature = "report"), allow(dead_code, unused_imports))]
 pub mod report;
+#[cfg(feature = "cli")]
+mod repository;
 #[cfg(feature = "report")]
 pub mod reproduction;

@@ -20,7 +20,7 @@ use crate::input::setup_file::{self, Setup};
 use crate::measured::Options;
 use crate::quantity::{Dimension, parse};
 use crate::report::caption::Setting as CaptionSetting;
-use crate::report::comparison::SweepTable;
+use crate::report::comparison;
 use crate::report::kept_figures::KeptFigures;
 use crate::report::measured::{
     self, ANALYSIS, Analysis, Computed, MeasuredRow, columns, ordered, text,
@@ -187,44 +187,13 @@ pub(super) fn figures(analysis: &Analysis) -> Result<KeptFigures, Failure> {
 
 /// The cases of a computed sweep, with their cycles.
 fn computed(folder: &Path) -> Result<Vec<Computed>, Failure> {
-    let table = folder.join("sweep.csv");
-    if !table.exists() {
+    if !folder.join("sweep.csv").exists() {
         let folder = folder.display();
         return Err(Failure::Input(format!(
             "--against {folder}: the folder of a sweep has a sweep.csv"
         )));
     }
-    let name = table.display().to_string();
-    let rows = SweepTable::parse(&name, &read_bytes(&table, MAX_BYTES)?, None)?.numbers_under([
-        "angular_frequency_rad_per_s",
-        "index",
-        "energy_loss_j",
-        "storage_modulus_pa",
-        "loss_modulus_pa",
-    ])?;
-    let cases = rows
-        .into_iter()
-        .filter_map(|[angular, index, loss, storage, of_loss]| {
-            let (angular_rad_per_s, index) = angular.zip(index)?;
-            let cycle = cycle(&folder.join(format!("loops/{}.csv", index as u64)));
-            Some(cycle.map(|cycle| Computed {
-                angular_rad_per_s,
-                energy_loss_j: loss,
-                storage_modulus_pa: storage,
-                loss_modulus_pa: of_loss,
-                cycle,
-            }))
-        });
-    cases.collect()
-}
-
-/// Loads (N) and approaches (m) of a computed cycle; none where the sweep did not write it.
-fn cycle(file: &Path) -> Result<Vec<(f64, f64)>, Failure> {
-    if !file.exists() {
-        return Ok(Vec::new());
-    }
-    let signal = loop_file::read(file)?;
-    Ok(signal.load_n.into_iter().zip(signal.approach_m).collect())
+    comparison::computed(folder, |path| read_bytes(path, MAX_BYTES))
 }
 
 /// Prints the analysis of a folder.

@@ -12,12 +12,11 @@ use super::flags::OutFlags;
 use super::folders::{refuse_other, write_figures};
 use super::output::{OutputFormat, tell};
 use crate::report::caption::Setting;
-use crate::report::comparison::{Comparison, RunFacts, Source, SweepTable, Tolerances};
+use crate::report::comparison::{Comparison, Opened, Tolerances};
 use crate::report::figure::{self, press::Files};
 use crate::report::kept_figures::KeptFigures;
 use crate::report::page::{self, comparison::Compared};
 use crate::sweep::plan::figures::FigurePlan;
-use crate::sweep::store::RESOLVED;
 use crate::sweep::store::manifest::{Kind, Target, kind_of};
 
 #[derive(Debug, Args)]
@@ -71,8 +70,9 @@ pub(super) fn run(flags: &CompareFlags, format: OutputFormat) -> Result<Ended, F
     for result in &reads {
         refuse_without_table(result)?;
     }
-    let baseline = open(&flags.baseline, None)?;
-    let new = open(&flags.new, Some(&baseline.table))?;
+    let read = |path: &Path| read_bytes(path, MAX_BYTES);
+    let baseline = Opened::read(&flags.baseline, None, read)?;
+    let new = Opened::read(&flags.new, Some(&baseline.table), read)?;
     let comparison = Comparison::of(&baseline.table, &new.table, &tolerances)?;
     let mut text = comparison.text();
     if let Some(target) = &target {
@@ -132,46 +132,6 @@ fn write(
     let files = Files::of([("comparison.csv", comparison.table())]);
     let left_out = write_figures(target, (kept, true), &FigurePlan::default(), files)?;
     Ok(why.into_iter().chain(not_drawn).chain(left_out).collect())
-}
-
-/// A result and where it comes from.
-struct Opened {
-    table: SweepTable,
-    source: Source,
-}
-
-/// The result in a folder, with its peaks, or in a single table, without; to be compared with another.
-fn open(path: &Path, other: Option<&SweepTable>) -> Result<Opened, Failure> {
-    let name = path.display().to_string();
-    if !path.is_dir() {
-        return Ok(Opened {
-            table: SweepTable::parse_beside(other, &name, &read(path)?, None)?,
-            source: Source {
-                name,
-                ..Source::default()
-            },
-        });
-    }
-    let beside = |file: &str| {
-        let file = path.join(file);
-        file.exists().then(|| read(&file)).transpose()
-    };
-    let csv = path.join("sweep.csv");
-    let (bytes, summary) = (read(&csv)?, beside("summary.json")?);
-    let csv = csv.display().to_string();
-    let table = SweepTable::parse_beside(other, &csv, &bytes, summary.as_deref())?;
-    let run = beside("run.json")?;
-    let resolved = beside(RESOLVED)?;
-    let source = Source {
-        name,
-        run: RunFacts::read([run, summary].iter().flatten().map(Vec::as_slice)),
-        resolved: resolved.map(|bytes| String::from_utf8_lossy(&bytes).into_owned()),
-    };
-    Ok(Opened { table, source })
-}
-
-fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    read_bytes(path, MAX_BYTES)
 }
 
 /// `COLUMN=RELATIVE`.

@@ -119,8 +119,8 @@ pub(super) fn refuse_other(folder: &Path, command: &str) -> Result<(), Failure> 
     }
 }
 
-/// Names of cases in a message before the rest is counted.
-pub(super) const NAMED: usize = 10;
+/// Lines of a difference that a message shows.
+const LINES: usize = 10;
 
 /// A kind of plan that folders hold: how it is read and written, what it is called, and the command that computes it.
 pub(super) struct Stored<P> {
@@ -172,7 +172,7 @@ pub(super) fn stored_plan<P>(
             return Err(Failure::Input(format!(
                 "`report` solves nothing, and --set can change [figures] alone; this is another {what}:\n{}for it run \
                  `contact-dma {command}`",
-                difference::lines(&identity(text), &identity(&changed), NAMED)
+                difference::lines(&identity(text), &identity(&changed), LINES)
             )));
         }
     }

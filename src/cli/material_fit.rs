@@ -9,7 +9,6 @@ use clap::{Args, ValueEnum};
 use super::failure::{Ended, Failure};
 use super::flags::{OutFlags, named};
 use super::folders::{in_folder, write_result};
-use super::material_show::{fit_json, to_json};
 use super::output::{OutputFormat, tell};
 use crate::input::dynamic::{DynamicFormat, FORMATS};
 use crate::input::keys::material::{MOST_BRANCHES, MOST_REPLICAS};
@@ -19,6 +18,7 @@ use crate::material::{Material, MaterialFunction, ModulusKind};
 use crate::quantity::{Dimension, parse};
 use crate::report::caption::Setting;
 use crate::report::dynamic::tables;
+use crate::report::material::{fit_json, to_json};
 use crate::report::page::{self, material::About};
 use crate::report::text::Text;
 use crate::report::{self, figure};
@@ -193,7 +193,7 @@ pub(super) fn run(
         })?;
     }
     let found = || {
-        let mut value = to_json(&material)?;
+        let mut value = to_json(&material).map_err(Failure::input)?;
         value["fit"] = fit_json(fit.report());
         Ok(value)
     };

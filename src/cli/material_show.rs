@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::documents::{STANDARD_INPUT, read_document};
 use super::failure::{Ended, Failure};
@@ -13,12 +13,12 @@ use super::output::{OutputFormat, tell};
 use crate::input::diagnostic::Problems;
 use crate::input::material_block;
 use crate::input::material_table::DirectSum;
-use crate::material::fit::FitReport;
 use crate::material::{Material, library};
+use crate::report;
 use crate::report::caption::Setting;
+use crate::report::material::{MaterialReport, to_json};
 use crate::report::page::{self, material::About};
 use crate::report::text::Text;
-use crate::report::{self, material::MaterialReport};
 use crate::sweep::plan::resolved;
 use crate::sweep::store::manifest::Kind;
 
@@ -33,14 +33,7 @@ pub(super) struct ShowFlags {
 /// Lists the library.
 pub(super) fn list(format: OutputFormat) -> Result<Ended, Failure> {
     let found = || Ok(json!({ "materials": library::entries() }));
-    tell(format, false, found, || {
-        let mut text = Text::default();
-        for entry in library::entries() {
-            text.line(format!("{}    {}", entry.name, entry.title));
-            text.append(about(entry));
-        }
-        Ok(text)
-    })
+    tell(format, false, found, || Ok(report::material::library()))
 }
 
 /// Shows a material.
@@ -64,7 +57,7 @@ pub(super) fn run(flags: &ShowFlags, format: OutputFormat) -> Result<Ended, Fail
             page::material::page(&material, &about)
         })?;
     }
-    let found = || to_json(&material);
+    let found = || to_json(&material).map_err(Failure::input);
     tell(format, false, found, || {
         let mut text = Text::from(format!("{title}\n"));
         text.append(head.clone());
@@ -81,7 +74,7 @@ type Loaded = (Material, (String, Text), Vec<PathBuf>);
 pub(super) fn load(name: &str) -> Result<Loaded, Failure> {
     if let Some(entry) = library::find(name) {
         let material = entry.material().map_err(Failure::run)?;
-        let head = (entry.title.to_owned(), about(entry));
+        let head = (entry.title.to_owned(), report::material::about(entry));
         return Ok((material, head, Vec::new()));
     }
     let path = Path::new(name);
@@ -101,46 +94,4 @@ pub(super) fn load(name: &str) -> Result<Loaded, Failure> {
     let title = format!("{} (from {name})", material.name().unwrap_or("Material"));
     let head = report::fit::origin(&material);
     Ok((material, (title, head), document.files()))
-}
-
-/// What the library says of a material, set in by four.
-fn about(entry: &library::LibraryEntry) -> Text {
-    let mut text = Text::default();
-    text.indented(entry.notes, "    ", "    ");
-    text.indented(format!("Source: {}", entry.source), "    ", "    ");
-    text
-}
-
-/// A material: its series both ways, moduli over frequency, peaks of its losses, its fit where it has one.
-pub(super) fn to_json(material: &Material) -> Result<Value, Failure> {
-    let peaks = material.loss_peaks(material.kind());
-    Ok(json!({
-        "name": material.name(),
-        "poisson_ratio": material.poisson_ratio(),
-        "bulk_modulus_pa": material.compressibility().constant_bulk_modulus_pa(),
-        "modulus": material.kind().name(),
-        "relaxation": material.relaxation(),
-        "creep": material.creep(),
-        "moduli": MaterialReport::new(material).moduli(10),
-        "peaks": peaks.map_err(Failure::input)?,
-        "fit": material.origin.fit.as_ref().map(fit_json),
-        "approximation": material.origin.approximation.as_ref(),
-        "material_toml": resolved::material_text(material),
-    }))
-}
-
-/// How well a series fits its table.
-pub(super) fn fit_json(report: &FitReport) -> Value {
-    let remarks = report
-        .remarks
-        .iter()
-        .map(|remark| json!({ "text": remark.to_string(), "is_warning": remark.is_warning() }));
-    json!({
-        "samples": report.samples,
-        "first_s": report.first_s,
-        "last_s": report.last_s,
-        "branches": report.branches,
-        "relative_misfit": report.misfit,
-        "remarks": remarks.collect::<Vec<_>>(),
-    })
 }

@@ -5,7 +5,7 @@ use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 use super::flags::RunFlags;
 use super::progress::line;
 use crate::figures::paper::drawing_bytes;
-use crate::report::number::two_digits;
+use crate::report::number::megabytes;
 use crate::sweep::plan::figures::FigurePlan;
 
 /// Memory (bytes) that is free for a new program here, within the limits of a container or batch job; `None` where the system
@@ -51,14 +51,6 @@ pub(super) fn warn_if_short(flags: &RunFlags, of_run: (u64, usize), figures: &Fi
         .iter()
         .chain(&of_figures)
         .for_each(|text| line(text));
-}
-
-/// Bytes in the unit that people would use for them.
-pub(super) fn megabytes(bytes: u64) -> String {
-    match bytes as f64 / 1e6 {
-        mega if mega < 1e3 => format!("{} MB", two_digits(mega)),
-        mega => format!("{} GB", two_digits(mega / 1e3)),
-    }
 }
 
 fn warning(bytes_per_thread: u64, threads: usize, free: u64) -> Option<String> {

@@ -1,20 +1,19 @@
 //! `contact-dma merge`: the shards of a sweep that are in folders of their own, joined.
 
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
 
 use super::failure::{Ended, Failure};
-use super::flags::{folder, threads};
-use super::folders::{NAMED, refuse_other, stored_sweep};
+use super::flags::{WorkFlags, folder};
+use super::folders::{refuse_other, stored_sweep};
 use super::interruption;
 use super::output::OutputFormat;
 use super::progress::Shown;
 use super::sweep::Job;
+use crate::report::terminal;
 use crate::sweep::plan::resolved::identity;
-use crate::sweep::plan::{Case, Condition};
 use crate::sweep::search::run::{self, Mode, Progress};
 use crate::sweep::store::provenance::Stopwatch;
 use crate::sweep::store::{Store, difference, merge};
@@ -36,16 +35,8 @@ pub(super) struct MergeFlags {
     /// Folder for the whole
     #[arg(long, value_name = "DIR", value_parser = folder())]
     out: PathBuf,
-    /// Number of threads [default: one per processor, at most four for each]
-    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
-    threads: Option<NonZeroUsize>,
-    /// Replace the results of a different sweep in the output folder, or add to a folder that has files of others, of which none is
-    /// touched
-    #[arg(long)]
-    force: bool,
-    /// Print nothing but errors
-    #[arg(long, short)]
-    quiet: bool,
+    #[command(flatten)]
+    work: WorkFlags,
 }
 
 /// Joins the parts and does what is left to do.
@@ -73,52 +64,27 @@ pub(super) fn run(flags: &MergeFlags, format: OutputFormat) -> Result<Ended, Fai
         }
     }
     let setup = stored_sweep((&flags.parts[0], resolved), &[])?;
-    let out = Store::open(&flags.out, resolved, flags.force)?;
+    let out = Store::open(&flags.out, resolved, flags.work.force)?;
     let cases = setup.plan().cases();
-    let progress = Shown::new(setup.plan(), cases.len(), flags.quiet);
+    let progress = Shown::new(setup.plan(), cases.len(), flags.work.quiet);
     let parts: Vec<Store> = parts.into_iter().map(|(part, _)| part).collect();
     let missing = merge::gather(&parts, &out, &cases, &|what| progress.notice(what))?;
     if !missing.is_empty() {
-        return Err(Failure::Run(lacking(&missing, cases.len(), &out)));
+        return Err(Failure::Run(terminal::lacking(
+            &missing,
+            cases.len(),
+            out.folder(),
+        )));
     }
     let interrupt = interruption::flag();
     let setup = setup.interrupted_by(Arc::clone(&interrupt));
-    let threads = run::useful_threads(flags.threads);
+    let threads = flags.work.threads();
     let mode = Mode::on_threads(threads);
     let outcome = run::run(&setup, &out, mode, &interrupt, &progress);
     let job = Job {
         threads,
         found: progress.finish(),
-        ..Job::new("merge", clock, (&setup, &out), (format, flags.quiet))
+        ..Job::new("merge", clock, (&setup, &out), (format, flags.work.quiet))
     };
     job.finish(outcome?)
-}
-
-fn lacking(missing: &[Case], of: usize, out: &Store) -> String {
-    let mut text = format!(
-        "{} of {of} cases are in none of the parts:\n",
-        missing.len()
-    );
-    for case in missing.iter().take(NAMED) {
-        let Condition { values, drive, .. } = &case.condition;
-        let values = values.all().iter();
-        let value: String = values
-            .map(|value| format!("axis {}, ", value.as_number()))
-            .collect();
-        text.push_str(&format!(
-            "  case {}: ω = {:e} rad/s ({value}mean {}, amplitude {})\n",
-            case.index,
-            case.angular_frequency_rad_per_s,
-            drive.mean(),
-            drive.amplitude()
-        ));
-    }
-    if missing.len() > NAMED {
-        text.push_str(&format!("  and {} more\n", missing.len() - NAMED));
-    }
-    text.push_str(&format!(
-        "What there is has been copied to {}: merge again with the rest, or run the sweep there",
-        out.folder().display()
-    ));
-    text
 }

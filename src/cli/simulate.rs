@@ -8,15 +8,14 @@ use clap::Args;
 use super::failure::{Ended, Failure};
 use super::flags::RunFlags;
 use super::folders::open_store;
-use super::memory::{self, megabytes};
+use super::memory;
 use super::output::{OutputFormat, read_json, tell};
 use super::progress::{bar, line};
 use super::{interruption, meant_for};
 use crate::input::scenario_file;
 use crate::report::quantities::{self, Moment};
 use crate::report::scenario_tables::History;
-use crate::report::words::nodes;
-use crate::report::{self, machine, terminal_simulation};
+use crate::report::{self, forecast, machine, terminal_simulation};
 use crate::simulation::checkpoint::{HistoryCheckpoint, HistoryState};
 use crate::simulation::scenario::{self, ScenarioPlan};
 use crate::simulation::{Simulation, SimulationEnd, SimulationOutcome};
@@ -62,8 +61,8 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
         return tell(
             format,
             false,
-            || Ok(to_json(&simulation)),
-            || Ok(predicted(&simulation).into()),
+            || Ok(forecast::of_history(&simulation)),
+            || Ok(forecast::history_text(&simulation, &memory::free_here()).into()),
         );
     }
     let resolved = scenario::resolved_text(simulation.plan());
@@ -173,36 +172,6 @@ fn found_in(store: &Store, outcome: &SimulationOutcome) -> Result<serde_json::Va
         "history": machine::rows(&quantities::of_moments(), &moments),
         "cycles": machine::rows(&quantities::of_cycles(), &outcome.cycles),
     }))
-}
-
-/// What would be computed, as one object.
-fn to_json(simulation: &Simulation) -> serde_json::Value {
-    let steps = simulation.schedule().moments.len();
-    serde_json::json!({
-        "title": simulation.plan().title,
-        "engine": simulation.plan().solver.engine.name(),
-        "time_steps": steps,
-        "time_steps_for_errors": simulation.moments() - steps,
-        "memory_bytes": simulation.predicted_memory_bytes(),
-    })
-}
-
-/// What would be computed, and about the memory it takes.
-fn predicted(simulation: &Simulation) -> String {
-    let plan = simulation.plan();
-    let free = memory::free_here();
-    format!(
-        "{}\n\n{} time steps on {} ({} engine){}.\nMemory: about {}{free}.\n",
-        plan.title,
-        simulation.schedule().moments.len(),
-        nodes(&plan.solver, plan.contact.indenter.as_ref()),
-        plan.solver.engine.name(),
-        match simulation.moments() - simulation.schedule().moments.len() {
-            0 => String::new(),
-            more => format!(";\n{more} more, most on fewer nodes, for the errors"),
-        },
-        megabytes(simulation.predicted_memory_bytes()),
-    )
 }
 
 /// The state of an earlier run, of which a line is told.

@@ -4,7 +4,6 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use clap::Args;
-use serde_json::json;
 
 use super::failure::{Ended, Failure};
 use super::flags::RunFlags;
@@ -206,25 +205,15 @@ impl<'a> Job<'a> {
         if outcome.missing == 0 {
             return self.finish(outcome);
         }
-        let found = json!({
-            "shard": shard.to_string(),
-            "cases_done": done,
-            "cases_of_shard": own,
-            "cases_missing": outcome.missing,
-            "interrupted": outcome.interrupted,
-        });
-        let next = match outcome.interrupted {
-            true => "Interrupted: the same command goes on from here.".to_owned(),
-            false => format!(
-                "{} cases of the other shards are missing in this folder. The process that ends last locates the peaks and \
-             draws the\nfigures; where the shards have folders of their own, `contact-dma merge` does.",
-                outcome.missing
-            ),
+        let told = terminal::ShardDone {
+            shard,
+            done,
+            own,
+            missing: outcome.missing,
+            interrupted: outcome.interrupted,
         };
-        let folder = self.store.folder().display();
-        let text =
-            format!("Shard {shard}: {done} of {own} cases are done. {next}\n\nRecords in {folder}");
-        tell(self.format, self.quiet, || Ok(found), || Ok(text.into()))?;
+        let text = || Ok(told.text(self.store.folder()).into());
+        tell(self.format, self.quiet, || Ok(told.to_json()), text)?;
         Ok(ended(outcome.interrupted, &outcome.records))
     }
 }

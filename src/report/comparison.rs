@@ -11,7 +11,7 @@ mod source;
 pub(in crate::report) mod text;
 
 pub use result::{ComparisonError, SweepTable};
-pub use source::{RunFacts, Source};
+pub use source::{Opened, RunFacts, Source, computed};
 
 use columns::Beside;
 

@@ -11,9 +11,10 @@ use std::borrow::Cow;
 
 use super::number::scientific;
 use crate::input::dynamic::DynamicFile;
-use crate::material::dynamic::{Characterisation, DynamicData, DynamicPoint};
+use crate::material::dynamic::{Characterisation, DynamicData, DynamicError, DynamicPoint};
 use crate::material::{MaterialFunction, Relaxation};
 use crate::quantity::FrequencyUnit;
+use crate::sweep::plan::resolved;
 
 /// Where dynamic data come from.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -157,6 +158,41 @@ impl Band {
             storage_pa: half_width(own.re, &storage)?,
             loss_pa: half_width(own.im, &loss)?,
         })
+    }
+}
+
+impl DynamicReport<'_> {
+    /// The material block of a sweep file, every number exact, with where it comes from.
+    ///
+    /// # Errors
+    /// What the series refuses to be a material with.
+    pub fn block(&self, poisson_ratio: Option<f64>) -> Result<String, DynamicError> {
+        // Without a Poisson ratio there is none in the text either: the series does not depend on it.
+        let nu = poisson_ratio.unwrap_or(0.0);
+        let mut material = self.made.material(None, nu)?;
+        material.origin.replicas = self.made.replica_materials(None, nu)?;
+        let block = match poisson_ratio {
+            Some(_) => resolved::material_text(&material),
+            None => resolved::material_text_without_poisson_ratio(&material),
+        };
+        Ok(self.text().as_comments() + &block)
+    }
+
+    /// The block of the same series with its temperature and the law by which it shifts to others; `None` where the data prefer no law, or
+    /// no Poisson ratio was given.
+    ///
+    /// # Errors
+    /// As [`DynamicReport::block`].
+    pub fn shifting_block(
+        &self,
+        poisson_ratio: Option<f64>,
+    ) -> Result<Option<String>, DynamicError> {
+        let Some(nu) = poisson_ratio else {
+            return Ok(None);
+        };
+        let material = self.made.whole_material(None, nu)?;
+        let has_law = material.origin.shift.is_some();
+        Ok(has_law.then(|| resolved::material_text(&material)))
     }
 }
 

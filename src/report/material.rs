@@ -1,13 +1,18 @@
 //! A material as text, table and figures: its series both ways, its moduli over frequency, its peaks.
 
+use serde_json::{Value, json};
+
 use super::figure;
 use super::figure::Figure;
 use super::figure::moduli::ModulusPoint;
 use super::number::{four_digits, range, six_digits};
 use super::text::{Column, Table, Text};
 use super::words;
+use crate::material::fit::FitReport;
+use crate::material::library;
 use crate::material::{Creep, LossPeak, Material, MaterialError, MaterialFunction, Relaxation};
 use crate::quantity::{Dimension, format_human};
+use crate::sweep::plan::resolved;
 
 /// A material with its functions as moduli of the kind it was given in.
 pub struct MaterialReport<'a> {
@@ -213,4 +218,59 @@ fn peak_lines(name: &str, peaks: &[LossPeak], value: fn(f64) -> String) -> Strin
         format!("  {name} = {} at ω = {omega} rad/s\n", value(peak.value))
     };
     peaks.iter().map(line).collect()
+}
+
+/// The library: every material with what is said of it.
+pub fn library() -> Text {
+    let mut text = Text::default();
+    for entry in library::entries() {
+        text.line(format!("{}    {}", entry.name, entry.title));
+        text.append(about(entry));
+    }
+    text
+}
+
+/// What the library says of a material, set in by four.
+pub fn about(entry: &library::LibraryEntry) -> Text {
+    let mut text = Text::default();
+    text.indented(entry.notes, "    ", "    ");
+    text.indented(format!("Source: {}", entry.source), "    ", "    ");
+    text
+}
+
+/// A material: its series both ways, moduli over frequency, peaks of its losses, its fit where it has one.
+///
+/// # Errors
+/// What the conversion of the material refuses.
+pub fn to_json(material: &Material) -> Result<Value, MaterialError> {
+    let peaks = material.loss_peaks(material.kind());
+    Ok(json!({
+        "name": material.name(),
+        "poisson_ratio": material.poisson_ratio(),
+        "bulk_modulus_pa": material.compressibility().constant_bulk_modulus_pa(),
+        "modulus": material.kind().name(),
+        "relaxation": material.relaxation(),
+        "creep": material.creep(),
+        "moduli": MaterialReport::new(material).moduli(10),
+        "peaks": peaks?,
+        "fit": material.origin.fit.as_ref().map(fit_json),
+        "approximation": material.origin.approximation.as_ref(),
+        "material_toml": resolved::material_text(material),
+    }))
+}
+
+/// How well a series fits its table.
+pub fn fit_json(report: &FitReport) -> Value {
+    let remarks = report
+        .remarks
+        .iter()
+        .map(|remark| json!({ "text": remark.to_string(), "is_warning": remark.is_warning() }));
+    json!({
+        "samples": report.samples,
+        "first_s": report.first_s,
+        "last_s": report.last_s,
+        "branches": report.branches,
+        "relative_misfit": report.misfit,
+        "remarks": remarks.collect::<Vec<_>>(),
+    })
 }

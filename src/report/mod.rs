@@ -4,7 +4,7 @@
 //!
 //! Its parts from top to bottom, each of which may use those above it: numbers, words, text that is laid out for a terminal; peaks; lines over the surface;
 //! tables, and the quantities that are their columns, by which they are read back too; tables of sweeps and scenarios; captions; comparison; chart; figure; material; page; figures that are kept; summary and results for
-//! programs; terminal; scenario. A test holds them to that.
+//! programs; terminal; what a computation would cost; scenario. A test holds them to that.
 //!
 //! ```
 //! use contact_dma::prelude::*;
@@ -40,6 +40,8 @@ pub mod dynamic;
 #[cfg(feature = "report")]
 pub mod figure;
 pub mod fit;
+#[cfg(feature = "report")]
+pub mod forecast;
 pub mod identify;
 #[cfg(feature = "report")]
 pub mod kept_figures;

@@ -245,6 +245,14 @@ pub fn two_digits(value: f64) -> String {
     format!("{value:.decimals$}")
 }
 
+/// Bytes in the unit that people would use for them.
+pub fn megabytes(bytes: u64) -> String {
+    match bytes as f64 / 1e6 {
+        mega if mega < 1e3 => format!("{} MB", two_digits(mega)),
+        mega => format!("{} GB", two_digits(mega / 1e3)),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,6 +1,9 @@
 //! What a sweep prints at its end: the table, the peaks, and what went wrong.
 
 use std::fmt::Display;
+use std::path::Path;
+
+use serde_json::{Value, json};
 
 use super::figure;
 use super::figure::units::Units;
@@ -13,9 +16,10 @@ use super::words::without_result;
 use crate::history::Work;
 use crate::quantity::{Dimension, FrequencyUnit, format_human};
 use crate::report::warnings;
-use crate::sweep::plan::{Axes, Block, Condition, SweepPlan, Varied};
+use crate::sweep::plan::{Axes, Block, Case, Condition, SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::Outcome;
+use crate::sweep::share::shard::Shard;
 
 /// Title, materials where they come from data, the table, peaks, what went wrong, and which files were left out.
 pub fn text(plan: &SweepPlan, outcome: &Outcome, left_out: &[String]) -> Text {
@@ -205,6 +209,83 @@ fn warnings_of_sweep(plan: &SweepPlan, outcome: &Outcome) -> Text {
 pub fn warned(warnings: impl IntoIterator<Item = impl Display>) -> Text {
     let lines = warnings.into_iter();
     lines.map(|warning| format!("warning: {warning}")).collect()
+}
+
+/// What a shard has done that is not the last of its sweep.
+#[derive(Debug, Clone, Copy)]
+pub struct ShardDone {
+    pub shard: Shard,
+    /// Cases that are done, of so many of the shard.
+    pub done: usize,
+    pub own: usize,
+    /// Cases of all shards that are missing.
+    pub missing: usize,
+    pub interrupted: bool,
+}
+
+impl ShardDone {
+    /// As one object.
+    pub fn to_json(&self) -> Value {
+        json!({
+            "shard": self.shard.to_string(),
+            "cases_done": self.done,
+            "cases_of_shard": self.own,
+            "cases_missing": self.missing,
+            "interrupted": self.interrupted,
+        })
+    }
+
+    /// To be read; its records are in this folder.
+    pub fn text(&self, folder: &Path) -> String {
+        let Self {
+            shard,
+            done,
+            own,
+            missing,
+            interrupted,
+        } = self;
+        let next = match interrupted {
+            true => "Interrupted: the same command goes on from here.".to_owned(),
+            false => format!(
+                "{missing} cases of the other shards are missing in this folder. The process that ends last locates the peaks and \
+                 draws the\nfigures; where the shards have folders of their own, `contact-dma merge` does."
+            ),
+        };
+        let folder = folder.display();
+        format!("Shard {shard}: {done} of {own} cases are done. {next}\n\nRecords in {folder}")
+    }
+}
+
+/// The cases that are in none of the parts of a sweep, and that those that are there are in this folder.
+pub fn lacking(missing: &[Case], of: usize, folder: &Path) -> String {
+    /// Cases named before the rest is counted.
+    const NAMED: usize = 10;
+    let mut text = format!(
+        "{} of {of} cases are in none of the parts:\n",
+        missing.len()
+    );
+    for case in missing.iter().take(NAMED) {
+        let Condition { values, drive, .. } = &case.condition;
+        let values = values.all().iter();
+        let value: String = values
+            .map(|value| format!("axis {}, ", value.as_number()))
+            .collect();
+        text.push_str(&format!(
+            "  case {}: ω = {:e} rad/s ({value}mean {}, amplitude {})\n",
+            case.index,
+            case.angular_frequency_rad_per_s,
+            drive.mean(),
+            drive.amplitude()
+        ));
+    }
+    if missing.len() > NAMED {
+        text.push_str(&format!("  and {} more\n", missing.len() - NAMED));
+    }
+    text.push_str(&format!(
+        "What there is has been copied to {}: merge again with the rest, or run the sweep there",
+        folder.display()
+    ));
+    text
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules from top to bottom: those of the package in `src/core`, then those of the program.
-const MODULES: [&str; 21] = [
+const MODULES: [&str; 22] = [
     "numerics",
     "quantity",
     "material",
@@ -24,6 +24,7 @@ const MODULES: [&str; 21] = [
     "input",
     "report",
     "reproduction",
+    "repository",
     "cli",
     "guide",
 ];
@@ -32,7 +33,7 @@ const MODULES: [&str; 21] = [
 const SWEEP: [&str; 6] = ["plan", "record", "store", "case", "share", "search"];
 
 /// Parts of the module `report` from top to bottom.
-const REPORT: [&str; 38] = [
+const REPORT: [&str; 39] = [
     "number",
     "words",
     "text",
@@ -66,6 +67,7 @@ const REPORT: [&str; 38] = [
     "scenario_folder",
     "machine",
     "terminal",
+    "forecast",
     "terminal_simulation",
     "scenario",
     "sweep_files",

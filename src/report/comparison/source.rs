@@ -1,9 +1,15 @@
 //! Where a result comes from, as far as the files beside its table say.
 
+use std::path::Path;
+
 use serde::Deserialize;
 
-use super::SweepTable;
+use super::{ComparisonError, SweepTable};
+use crate::input::diagnostic::Diagnostics;
+use crate::input::loop_file;
+use crate::report::measured::Computed;
 use crate::report::number::range;
+use crate::sweep::store::RESOLVED;
 
 /// The origin of one of two results.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -58,6 +64,94 @@ impl SweepTable {
     pub fn cases(&self) -> usize {
         self.rows.len()
     }
+}
+
+/// A result and where it comes from.
+#[derive(Debug, Clone)]
+pub struct Opened {
+    pub table: SweepTable,
+    pub source: Source,
+}
+
+impl Opened {
+    /// The result in a folder, with its peaks, or in a single table, without; to be compared with another. `read` reads a file.
+    ///
+    /// # Errors
+    /// What `read` says, and [`ComparisonError`] where the table is none.
+    pub fn read<E: From<ComparisonError>>(
+        path: &Path,
+        other: Option<&SweepTable>,
+        read: impl Fn(&Path) -> Result<Vec<u8>, E>,
+    ) -> Result<Self, E> {
+        let name = path.display().to_string();
+        if !path.is_dir() {
+            return Ok(Self {
+                table: SweepTable::parse_beside(other, &name, &read(path)?, None)?,
+                source: Source {
+                    name,
+                    ..Source::default()
+                },
+            });
+        }
+        let beside = |file: &str| {
+            let file = path.join(file);
+            file.exists().then(|| read(&file)).transpose()
+        };
+        let csv = path.join("sweep.csv");
+        let (bytes, summary) = (read(&csv)?, beside("summary.json")?);
+        let csv = csv.display().to_string();
+        let table = SweepTable::parse_beside(other, &csv, &bytes, summary.as_deref())?;
+        let run = beside("run.json")?;
+        let resolved = beside(RESOLVED)?;
+        let source = Source {
+            name,
+            run: RunFacts::read([run, summary].iter().flatten().map(Vec::as_slice)),
+            resolved: resolved.map(|bytes| String::from_utf8_lossy(&bytes).into_owned()),
+        };
+        Ok(Self { table, source })
+    }
+}
+
+/// The cases of a computed sweep with their cycles, beside which measured ones are drawn. `read` reads a file.
+///
+/// # Errors
+/// What `read` says, [`ComparisonError`] where the table is none, and what is wrong with the file of a cycle.
+pub fn computed<E: From<ComparisonError> + From<Diagnostics>>(
+    folder: &Path,
+    read: impl Fn(&Path) -> Result<Vec<u8>, E>,
+) -> Result<Vec<Computed>, E> {
+    let table = folder.join("sweep.csv");
+    let name = table.display().to_string();
+    let rows = SweepTable::parse(&name, &read(&table)?, None)?.numbers_under([
+        "angular_frequency_rad_per_s",
+        "index",
+        "energy_loss_j",
+        "storage_modulus_pa",
+        "loss_modulus_pa",
+    ])?;
+    let cases = rows
+        .into_iter()
+        .filter_map(|[angular, index, loss, storage, of_loss]| {
+            let (angular_rad_per_s, index) = angular.zip(index)?;
+            let cycle = cycle(&folder.join(format!("loops/{}.csv", index as u64)));
+            Some(cycle.map(|cycle| Computed {
+                angular_rad_per_s,
+                energy_loss_j: loss,
+                storage_modulus_pa: storage,
+                loss_modulus_pa: of_loss,
+                cycle,
+            }))
+        });
+    Ok(cases.collect::<Result<_, Diagnostics>>()?)
+}
+
+/// Loads (N) and approaches (m) of a computed cycle; none where the sweep did not write it.
+fn cycle(file: &Path) -> Result<Vec<(f64, f64)>, Diagnostics> {
+    if !file.exists() {
+        return Ok(Vec::new());
+    }
+    let signal = loop_file::read(file)?;
+    Ok(signal.load_n.into_iter().zip(signal.approach_m).collect())
 }
 
 #[cfg(test)]

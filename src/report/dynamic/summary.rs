@@ -62,6 +62,27 @@ fn arrhenius(law: &Arrhenius) -> Value {
     })
 }
 
+/// The summary with what else the files hold, as it is printed.
+pub fn printed(report: &DynamicReport<'_>, block: &str, shifting: Option<&str>) -> Value {
+    let mut value = summary(report);
+    let shifts = report.made.master.as_ref().map(|master| {
+        let shifts = master.shifts.iter().map(|shift| {
+            json!({
+                "temperature_c": celsius(shift.temperature_k),
+                "log10_a_t": shift.log10_a_t,
+                "log10_a_t_error": shift.log10_a_t_error,
+                "b_t": shift.b_t,
+            })
+        });
+        shifts.collect::<Vec<_>>()
+    });
+    value["shift_factors"] = json!(shifts);
+    value["relaxation"] = json!(report.relaxation());
+    value["material_toml"] = block.into();
+    value["shifting_toml"] = shifting.into();
+    value
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
