@@ -15,7 +15,8 @@ use std::{env, fs, io};
 use sha2::{Digest, Sha256};
 
 /// The modules that make numbers.
-const MODULES: [&str; 12] = [
+const MODULES: [&str; 13] = [
+    "transforms",
     "numerics",
     "quantity",
     "material",

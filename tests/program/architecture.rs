@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules from top to bottom: those of the package in `src/core`, then those of the program.
-const MODULES: [&str; 22] = [
+const MODULES: [&str; 23] = [
+    "transforms",
     "numerics",
     "quantity",
     "material",

@@ -3,7 +3,6 @@
 use std::f64::consts::{PI, TAU};
 
 use num_complex::Complex;
-use realfft::RealFftPlanner;
 
 /// Why a loop cannot be analysed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -246,7 +245,7 @@ fn spectrum(samples: &[f64]) -> Result<Vec<Complex<f64>>, LoopError> {
     let n = samples.len() - 1;
     let mut periodic = samples[..n].to_vec();
     periodic[0] = 0.5 * (samples[0] + samples[n]);
-    let transform = RealFftPlanner::<f64>::new().plan_fft_forward(n);
+    let transform = contact_dma_transforms::real_forward(n);
     let mut output = transform.make_output_vec();
     transform
         .process(&mut periodic, &mut output)

@@ -20,7 +20,6 @@
 use std::ops::RangeInclusive;
 
 use num_complex::Complex;
-use rustfft::FftPlannerScalar;
 
 use super::{HeightMap, IndenterError, MapEdge, MapQuantity, positive_length};
 use crate::block;
@@ -171,7 +170,7 @@ fn place(kx: i64, ky: i64, n: usize) -> usize {
 
 /// The inverse transform along both directions, without a factor. The result is transposed and transposed back.
 fn transform(values: &mut [Complex<f64>], n: usize) {
-    let plan = FftPlannerScalar::new().plan_fft_inverse(n);
+    let plan = contact_dma_transforms::complex_inverse_anywhere(n);
     for _ in 0..2 {
         plan.process(values);
         for row in 0..n {

@@ -2,7 +2,6 @@
 //! signals at once, at the times of the samples as they are.
 
 use nalgebra::{DMatrix, DVector};
-use realfft::RealFftPlanner;
 use serde::{Deserialize, Serialize};
 
 use super::drift::{self, DriftModel, Span};
@@ -105,7 +104,7 @@ pub(super) fn power(values: &[f64]) -> Vec<f64> {
         *value *= scale * (0.5 + 0.5 * (std::f64::consts::PI * u(i)).cos());
     }
     flat.resize(n * LINES_A_FREQUENCY, 0.0);
-    let transform = RealFftPlanner::<f64>::new().plan_fft_forward(flat.len());
+    let transform = contact_dma_transforms::real_forward(flat.len());
     let mut lines = transform.make_output_vec();
     match transform.process(&mut flat, &mut lines) {
         Ok(()) => lines.iter().map(|line| line.norm_sqr()).collect(),

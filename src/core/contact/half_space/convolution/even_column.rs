@@ -6,9 +6,10 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use contact_dma_transforms as transforms;
 use num_complex::Complex;
-use realfft::{FftError, RealFftPlanner, RealToComplex};
-use rustfft::{Fft, FftPlanner};
+use realfft::{FftError, RealToComplex};
+use rustfft::Fft;
 
 use super::super::influence::Influence;
 use super::spectral::{Column, Row, ZERO};
@@ -57,8 +58,7 @@ impl Kernel {
         period_y: usize,
     ) -> Result<Self, FftError> {
         let (row_half, column_half) = (period_x / 2 + 1, period_y / 2 + 1);
-        let mut planner = RealFftPlanner::new();
-        let mut along_x = EvenTransform::new(planner.plan_fft_forward(period_x));
+        let mut along_x = EvenTransform::new(transforms::real_forward(period_x));
         let mut rows = vec![0.0; column_half * row_half];
         for (offset_y, spectrum) in rows.chunks_exact_mut(row_half).enumerate() {
             let coefficient = |offset_x| influence.coefficient_m(offset_x, offset_y);
@@ -67,7 +67,7 @@ impl Kernel {
         Ok(Self {
             rows,
             row_half,
-            along_y: EvenTransform::new(planner.plan_fft_forward(period_y)),
+            along_y: EvenTransform::new(transforms::real_forward(period_y)),
         })
     }
 
@@ -134,11 +134,11 @@ pub(super) struct EvenColumn {
 impl EvenColumn {
     /// Plans for columns of this length, padding included.
     pub(super) fn new(length: usize) -> Self {
-        let mut planner = FftPlanner::new();
+        let (forward, inverse) = transforms::complex(length);
         Self {
             length,
-            forward: planner.plan_fft_forward(length),
-            inverse: planner.plan_fft_inverse(length),
+            forward,
+            inverse,
         }
     }
 }

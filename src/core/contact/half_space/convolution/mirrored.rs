@@ -16,9 +16,10 @@ use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::Arc;
 
+use contact_dma_transforms as transforms;
 use num_complex::Complex;
-use realfft::{ComplexToReal, FftError, RealFftPlanner, RealToComplex};
-use rustfft::{Fft, FftPlanner};
+use realfft::{ComplexToReal, FftError, RealToComplex};
+use rustfft::Fft;
 
 use super::super::influence::Influence;
 use super::even_column::Kernel;
@@ -45,11 +46,10 @@ fn twist(half: usize) -> Vec<Complex<f64>> {
 impl MirroredRow {
     /// Plans for rows that repeat after `2 half` values, `half` even.
     pub(super) fn new(half: usize) -> Self {
-        let mut planner = RealFftPlanner::new();
         Self {
             half,
-            forward: planner.plan_fft_forward(half),
-            inverse: planner.plan_fft_inverse(half),
+            forward: transforms::real_forward(half),
+            inverse: transforms::real_inverse(half),
             twist: twist(half),
         }
     }
@@ -133,11 +133,11 @@ pub(super) struct MirroredColumn {
 impl MirroredColumn {
     /// Plans for columns that repeat after `2 half` values, `half` even.
     pub(super) fn new(half: usize) -> Self {
-        let mut planner = FftPlanner::new();
+        let (forward, inverse) = transforms::complex(half);
         Self {
             half,
-            forward: planner.plan_fft_forward(half),
-            inverse: planner.plan_fft_inverse(half),
+            forward,
+            inverse,
             twist: twist(half),
         }
     }

@@ -14,9 +14,10 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+use contact_dma_transforms as transforms;
 use num_complex::Complex;
 use realfft::FftError;
-use rustfft::{Fft, FftPlanner};
+use rustfft::Fft;
 
 use super::even_column::FrequencyPerBin;
 use super::length::fast_row_half;
@@ -39,13 +40,13 @@ impl PaddedRow {
     /// Plans for rows of `cells` values, padded to at least twice that.
     pub(super) fn new(cells: usize) -> Self {
         let quarter = fast_row_half(cells);
-        let mut complex = FftPlanner::new();
+        let (odd_forward, odd_inverse) = transforms::complex(quarter);
         let angle = -PI / (2 * quarter) as f64;
         Self {
             quarter,
             even: PeriodicRow::of_period(2 * quarter),
-            odd_forward: complex.plan_fft_forward(quarter),
-            odd_inverse: complex.plan_fft_inverse(quarter),
+            odd_forward,
+            odd_inverse,
             twist: (0..quarter)
                 .map(|j| Complex::cis(angle * j as f64))
                 .collect(),

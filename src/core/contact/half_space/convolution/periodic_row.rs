@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
+use contact_dma_transforms as transforms;
 use num_complex::Complex;
-use realfft::{ComplexToReal, FftError, RealFftPlanner, RealToComplex};
+use realfft::{ComplexToReal, FftError, RealToComplex};
 
 use super::even_column::FrequencyPerBin;
 use super::length::fast_row_half;
@@ -24,11 +25,10 @@ impl PeriodicRow {
 
     /// Plans for rows that repeat after this many values.
     pub(super) fn of_period(period: usize) -> Self {
-        let mut planner = RealFftPlanner::new();
         Self {
             period,
-            forward: planner.plan_fft_forward(period),
-            inverse: planner.plan_fft_inverse(period),
+            forward: transforms::real_forward(period),
+            inverse: transforms::real_inverse(period),
         }
     }
 
