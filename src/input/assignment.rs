@@ -1,8 +1,10 @@
-//! `--set KEY=VALUE`: finding key and value in the text of the flag, and putting them into the tree.
+//! Assignments: a value in place of what stands at a path of the document. `--set KEY=VALUE` is one, and an axis of a sweep is one for
+//! each of its values.
 //!
-//! Items of a list have numbers from 0: `asperities.1.radius`, or `asperities[1].radius` as messages say it; the number behind the
-//! last one adds an item. `KEY=` removes a key. A key that takes the place of others in the file removes those.
+//! Items of lists have numbers from 0: `asperities.1.radius`, or `asperities[1].radius` as messages say it; the number behind the
+//! last one adds an item. `--set KEY=` removes a key. A key of a flag that takes the place of others in the file removes those.
 
+use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -21,6 +23,85 @@ const PREFIX: &str = "--set ";
 /// Deepest key accepted; sweep files have three levels.
 const MAX_DEPTH: usize = 16;
 
+/// The keys of tables, and the numbers of items of lists, that lead to a value of a document.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Path(Vec<Step>);
+
+/// One of them, and where it is written.
+#[derive(Debug, Clone)]
+struct Step {
+    word: String,
+    place: Location,
+}
+
+impl Step {
+    /// The number of an item, if it is one.
+    fn number(&self) -> Option<usize> {
+        self.word.parse().ok()
+    }
+}
+
+/// As messages write it: `material.isotherm[0].temperature`.
+impl fmt::Display for Path {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.text(|number| format!("[{number}]")))
+    }
+}
+
+impl Path {
+    /// The same with the words of a dotted key behind it, all written at this place. A key that is not made of words is one.
+    pub(super) fn and(&self, key: &str, place: &Location) -> Self {
+        let words = match words_of(key) {
+            Ok(words) if words.len() <= MAX_DEPTH => words.into_iter().map(|w| &key[w]).collect(),
+            _ => vec![key],
+        };
+        let words = words.into_iter().map(|word| Step {
+            word: word.to_owned(),
+            place: place.clone(),
+        });
+        Self(self.0.iter().cloned().chain(words).collect())
+    }
+
+    /// The path without the numbers of items: `material.isotherm[].temperature`.
+    pub(super) fn general(&self) -> String {
+        self.text(|_| "[]".to_owned())
+    }
+
+    fn text(&self, item: fn(usize) -> String) -> String {
+        self.0
+            .iter()
+            .fold(String::new(), |text, step| match step.number() {
+                Some(number) => text + &item(number),
+                None => join(&text, &step.word),
+            })
+    }
+
+    /// What stands there, if something does.
+    pub(super) fn find<'a>(&self, root: &'a Table) -> Option<&'a Node> {
+        let (first, below) = self.0.split_first()?;
+        let start = &root.entries.get(&first.word)?.node;
+        below
+            .iter()
+            .try_fold(start, |node, step| match &node.value {
+                Value::Table(table) => Some(&table.entries.get(&step.word)?.node),
+                Value::Array(items) => items.get(step.number()?),
+                _ => None,
+            })
+    }
+
+    /// Puts a value in place of what stands there. Tables on the way are made when missing.
+    ///
+    /// # Errors
+    /// Something on the way that is neither table nor list.
+    pub(super) fn set(&self, root: &mut Table, value: Node) -> Result<(), Diagnostic> {
+        let change = Change {
+            new: Some(value),
+            excludes: false,
+        };
+        change.in_table(root, "", &self.0)
+    }
+}
+
 impl Document {
     /// Applies the argument of a `--set` flag, `cycle.steps=200`: a dotted key, and a TOML value.
     ///
@@ -36,12 +117,18 @@ impl Document {
     pub fn set(&mut self, argument: &str) -> Result<(), Diagnostics> {
         let source = Source::flag(format!("{PREFIX}{argument}"), self.flags);
         self.flags = self.flags.saturating_add(1);
-        apply(&mut self.root, &source)
+        let (path, new) = flag(&source)?;
+        // A refused flag leaves everything as it was.
+        let mut changed = self.root.clone();
+        let excludes = new.is_some();
+        Change { new, excludes }.in_table(&mut changed, "", &path.0)?;
+        self.root = changed;
+        Ok(())
     }
 }
 
-/// Applies the flag whose text is `source`.
-fn apply(root: &mut Table, source: &Arc<Source>) -> Result<(), Diagnostics> {
+/// Path and value of the flag whose text is `source`; no value where it removes a key.
+fn flag(source: &Arc<Source>) -> Result<(Path, Option<Node>), Diagnostics> {
     let text = source.text();
     let Some(equals) = text.find('=') else {
         let place = Location::new(source, PREFIX.len()..text.len());
@@ -50,45 +137,46 @@ fn apply(root: &mut Table, source: &Arc<Source>) -> Result<(), Diagnostics> {
             .help("write `--set KEY=VALUE`, such as `--set cycle.steps=200`")
             .into());
     };
-    let keys = keys(source, PREFIX.len()..equals)?;
-    let new = value(source, trimmed(text, equals + 1..text.len()))?;
-    // A refused flag leaves everything as it was.
-    let mut changed = Value::Table(root.clone());
-    change(&mut changed, &Location::whole(source), "", &keys, new)?;
-    if let Value::Table(changed) = changed {
-        *root = changed;
+    let key = Location::new(source, PREFIX.len()..equals);
+    let word = |word: Range<usize>| {
+        Location::new(source, PREFIX.len() + word.start..PREFIX.len() + word.end)
+    };
+    let words = words_of(key.text()).map_err(|unfit| {
+        Diagnostic::at(&word(unfit), "`--set` needs a dotted key before `=`")
+            .because("expected letters, digits, `_` or `-`")
+            .help("write `--set KEY=VALUE`, such as `--set cycle.steps=200`")
+    })?;
+    if words.len() > MAX_DEPTH {
+        let message = format!("the key has more than {MAX_DEPTH} levels");
+        return Err(Diagnostic::at(&key, message).into());
     }
-    Ok(())
+    let steps = words.into_iter().map(|found| Step {
+        word: key.text()[found.clone()].to_owned(),
+        place: word(found),
+    });
+    let value = value(source, trimmed(text, equals + 1..text.len()))?;
+    Ok((Path(steps.collect()), value))
 }
 
-/// The words of a dotted key, each with its place.
-fn keys(source: &Arc<Source>, span: Range<usize>) -> Result<Vec<Location>, Diagnostic> {
-    let mut keys = Vec::new();
-    let mut start = span.start;
-    for word in source.text()[span.clone()].split(['.', '[']) {
-        let opened = start > span.start && source.text().as_bytes()[start - 1] == b'[';
-        let place = trimmed(source.text(), start..start + word.len());
+/// The words of a dotted key, or where the first thing stands that is none.
+fn words_of(key: &str) -> Result<Vec<Range<usize>>, Range<usize>> {
+    let mut words = Vec::new();
+    let mut start = 0;
+    for word in key.split(['.', '[']) {
+        let opened = start > 0 && key.as_bytes()[start - 1] == b'[';
+        let place = trimmed(key, start..start + word.len());
         start += word.len() + 1;
-        let closed = opened && source.text()[place.clone()].ends_with(']');
-        let location = Location::new(source, place.start..place.end - usize::from(closed));
+        let closed = opened && key[place.clone()].ends_with(']');
+        let place = place.start..place.end - usize::from(closed);
         let is_key =
             |character: char| character.is_ascii_alphanumeric() || "_-".contains(character);
-        let is_word = !location.text().is_empty() && location.text().chars().all(is_key);
+        let is_word = !place.is_empty() && key[place.clone()].chars().all(is_key);
         if !is_word || opened != closed {
-            return Err(
-                Diagnostic::at(&location, "`--set` needs a dotted key before `=`")
-                    .because("expected letters, digits, `_` or `-`")
-                    .help("write `--set KEY=VALUE`, such as `--set cycle.steps=200`"),
-            );
+            return Err(place);
         }
-        keys.push(location);
+        words.push(place);
     }
-    if keys.len() > MAX_DEPTH {
-        let place = Location::new(source, span);
-        let message = format!("the key has more than {MAX_DEPTH} levels");
-        return Err(Diagnostic::at(&place, message));
-    }
-    Ok(keys)
+    Ok(words)
 }
 
 /// The value, which is a string where it is not TOML and does not set out to be; `None` where there is none, to remove the key.
@@ -115,104 +203,119 @@ fn value(source: &Arc<Source>, span: Range<usize>) -> Result<Option<Node>, Diagn
     Ok(Some(Node { value, location }))
 }
 
-/// Puts `new` under `keys` in `value`, which is called `path` and given at `place`, or removes what is there.
-fn change(
-    value: &mut Value,
-    place: &Location,
-    path: &str,
-    keys: &[Location],
+/// A value on its way to its place, or the removal of what stands there.
+struct Change {
     new: Option<Node>,
-) -> Result<(), Diagnostic> {
-    let Some((key, below)) = keys.split_first() else {
-        return Ok(());
-    };
-    let found = value.describe();
-    let refused = |message: String, because: &str, label: String| {
-        Diagnostic::at(key, message)
-            .because(because)
-            .label(place, label)
-            .help(format!("set it whole: `--set {path}=VALUE`"))
-    };
-    match value {
-        Value::Table(table) => change_in_table(table, path, (key, below), new),
-        Value::Array(items) => {
-            let Some(index) = item_number(key, items.len(), new.is_some()) else {
-                let message = format!("`{path}` is an array of {}", items.len());
-                let because = "expected the number of an item, from 0";
-                return Err(refused(message, because, "the array".to_owned()));
-            };
-            if index == items.len() {
-                items.push(Node::empty_table(key));
-            }
-            match (below, new) {
-                ([], None) => drop(items.remove(index)),
-                ([], Some(node)) => items[index] = node,
-                (_, new) => {
-                    change_below(&mut items[index], &format!("{path}[{index}]"), below, new)?;
-                }
-            }
-            Ok(())
+    /// Whether what the file says under keys that exclude those on the way gives way.
+    excludes: bool,
+}
+
+impl Change {
+    /// Carries it out where these steps lead from the table that is called `path`.
+    fn in_table(self, table: &mut Table, path: &str, steps: &[Step]) -> Result<(), Diagnostic> {
+        let Some((step, below)) = steps.split_first() else {
+            return Ok(());
+        };
+        let name = step.word.as_str();
+        // The same path, or one that goes on from it, may be given as one key in quotes.
+        let quoted = |key: &String, whole: bool| {
+            let words = quoted_words(key);
+            let is_there = words.len() == steps.len() || (!whole && words.len() > steps.len());
+            is_there
+                && words
+                    .iter()
+                    .zip(steps)
+                    .all(|(word, step)| *word == step.word)
+        };
+        if let Some(word) = table.entries.keys().find(|key| quoted(key, true)) {
+            let (word, place) = (word.clone(), step.place.clone());
+            return self.in_table(table, path, &[Step { word, place }]);
         }
-        _ => Err(refused(
-            format!("`{path}` is {found}, with no keys below it"),
-            "a key below this was to be set",
-            format!("{found} is given here"),
-        )),
-    }
-}
-
-/// The same of what stands at a node.
-fn change_below(
-    node: &mut Node,
-    path: &str,
-    keys: &[Location],
-    new: Option<Node>,
-) -> Result<(), Diagnostic> {
-    let place = node.location.clone();
-    change(&mut node.value, &place, path, keys, new)
-}
-
-fn change_in_table(
-    table: &mut Table,
-    path: &str,
-    (key, below): (&Location, &[Location]),
-    new: Option<Node>,
-) -> Result<(), Diagnostic> {
-    let name = key.text();
-    let full = join(path, name);
-    let is_set = new.is_some();
-    if !is_set && !table.entries.contains_key(name) {
-        let given: Vec<&str> = table.entries.keys().map(String::as_str).collect();
-        let problem =
-            Diagnostic::at(key, format!("`{full}` is not set")).because("nothing to remove");
-        return Err(match given.as_slice() {
-            [] => problem,
-            _ => problem.help(format!("set here: {}", in_backticks(&given))),
-        });
-    }
-    let entry = |node| Entry {
-        key: key.clone(),
-        node,
-    };
-    match (below, new) {
-        ([], None) => drop(table.entries.remove(name)),
-        ([], Some(node)) => drop(table.entries.insert(name.to_owned(), entry(node))),
-        (_, new) => {
-            let empty = || entry(Node::empty_table(key));
-            let entry = table.entries.entry(name.to_owned()).or_insert_with(empty);
-            change_below(&mut entry.node, &full, below, new)?;
+        let given = table.entries.len();
+        table.entries.retain(|key, _| !quoted(key, false));
+        if self.new.is_none() && table.entries.len() < given && !table.entries.contains_key(name) {
+            return Ok(());
         }
+        let full = join(path, name);
+        if self.new.is_none() && !table.entries.contains_key(name) {
+            let given: Vec<&str> = table.entries.keys().map(String::as_str).collect();
+            let problem = Diagnostic::at(&step.place, format!("`{full}` is not set"))
+                .because("nothing to remove");
+            return Err(match given.as_slice() {
+                [] => problem,
+                _ => problem.help(format!("set here: {}", in_backticks(&given))),
+            });
+        }
+        let excludes = self.excludes;
+        let entry = |node| Entry {
+            key: step.place.clone(),
+            node,
+        };
+        match (below, self.new) {
+            ([], None) => drop(table.entries.remove(name)),
+            ([], Some(node)) => drop(table.entries.insert(name.to_owned(), entry(node))),
+            (_, new) => {
+                let empty = || entry(Node::empty_table(&step.place));
+                let entry = table.entries.entry(name.to_owned()).or_insert_with(empty);
+                Self { new, excludes }.in_node(&mut entry.node, &full, below)?;
+            }
+        }
+        if excludes {
+            remove_excluded(table, path, name);
+        }
+        Ok(())
     }
-    if is_set {
-        remove_excluded(table, path, name);
+
+    /// The same from a node that is called `path`.
+    fn in_node(self, node: &mut Node, path: &str, steps: &[Step]) -> Result<(), Diagnostic> {
+        let Some((step, below)) = steps.split_first() else {
+            return Ok(());
+        };
+        let (found, place) = (node.describe(), node.location.clone());
+        let refused = |message: String, because: &str, label: String| {
+            Diagnostic::at(&step.place, message)
+                .because(because)
+                .label(&place, label)
+                .help(format!("set it whole: `--set {path}=VALUE`"))
+        };
+        let items = match &mut node.value {
+            Value::Table(table) => return self.in_table(table, path, steps),
+            Value::Array(items) => items,
+            _ => {
+                return Err(refused(
+                    format!("`{path}` is {found}, with no keys below it"),
+                    "a key below this was to be set",
+                    format!("{found} is given here"),
+                ));
+            }
+        };
+        let most = items.len() + usize::from(self.new.is_some());
+        let Some(number) = step.number().filter(|number| *number < most) else {
+            let message = format!("`{path}` is an array of {}", items.len());
+            let because = "expected the number of an item, from 0";
+            return Err(refused(message, because, "the array".to_owned()));
+        };
+        if number == items.len() {
+            items.push(Node::empty_table(&step.place));
+        }
+        match (below, self.new) {
+            ([], None) => drop(items.remove(number)),
+            ([], Some(node)) => items[number] = node,
+            (_, new) => {
+                let excludes = self.excludes;
+                let item = format!("{path}[{number}]");
+                Self { new, excludes }.in_node(&mut items[number], &item, below)?;
+            }
+        }
+        Ok(())
     }
-    Ok(())
 }
 
-/// The number of an item that is there, or may be added.
-fn item_number(key: &Location, items: usize, adds: bool) -> Option<usize> {
-    let index = key.text().parse().ok()?;
-    (index < items + usize::from(adds)).then_some(index)
+/// The words of a key in quotes that is a path, such as `"material.temperature"`; none of any other key.
+fn quoted_words(key: &str) -> Vec<&str> {
+    let words = key.contains(['.', '[']).then(|| words_of(key).ok());
+    let words = words.flatten().into_iter().flatten();
+    words.map(|word| &key[word]).collect()
 }
 
 /// Removes what the file says under keys that the one just set excludes. What a flag says stays, and is told to be too much.

@@ -22,7 +22,6 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::axis;
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source};
 use super::file_kind;
 use tree::Table;
@@ -147,15 +146,12 @@ impl Document {
         let source = Source::file(name, text.trim_start_matches('\u{feff}'));
         let (table, errors) = toml::de::DeTable::parse_recoverable(source.text());
         if errors.is_empty() {
-            let mut root = Table::from_toml(table.into_inner(), &source, 0);
-            let problems = Problems::new();
-            axis::unquote(&mut root, &problems);
-            problems.into_result(Some(Self {
+            Ok(Self {
+                root: Table::from_toml(table.into_inner(), &source, 0),
                 source,
-                root,
                 folder: PathBuf::new(),
                 flags: 0,
-            }))
+            })
         } else {
             Err(syntax::explain_all(&source, &errors))
         }

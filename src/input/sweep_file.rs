@@ -2,7 +2,7 @@
 
 mod conditions;
 
-use super::axis::{self, Swept};
+use super::axis::{self, Axis};
 use super::diagnostic::{Diagnostics, Problems};
 use super::document::reader::TableReader;
 use super::document::{Document, block};
@@ -41,27 +41,28 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
         let title = root.value(&keys::TITLE);
         let prescribed = harmonic_block::prescribed(root);
         let sweep = root.table(&keys::SWEEP);
-        let sweep = sweep.and_then(|table| axes(table, prescribed.dimension()));
+        let sweep = sweep.and_then(|table| read(table, prescribed.dimension()));
         let sweep = sweep.as_ref();
-        let blocks = Blocks::read(root, sweep, prescribed, given);
+        let blocks = Blocks::read(root, sweep, given);
         let cycle = root.table_or(&keys::CYCLE, CyclePlan::default(), |t| block::read(t, None));
-        let layer = blocks.layer.as_ref().and_then(|over| over.own);
-        let default = blocks.indenter.as_ref().map(|over| {
+        let layer = blocks.layer.iter().flatten().next();
+        let is_layer = layer.is_some_and(Option::is_some);
+        let default = blocks.indenter.as_deref().and_then(|indenters| {
             // Cells can do what springs cannot.
-            let on_cells = over
-                .all()
-                .find(|indenter| indenter.axisymmetric().is_none());
-            SolverPlan::of(on_cells.unwrap_or(&over.own).as_ref(), layer.is_some())
+            let mut all = indenters.iter();
+            let on_cells = all.find(|indenter| indenter.axisymmetric().is_none());
+            let indenter = on_cells.or(indenters.first())?;
+            Some(SolverPlan::of(indenter.as_ref(), is_layer))
         });
-        let solver = solver_block::read(root, layer.is_some(), default.unwrap_or_default());
-        let frequencies = sweep.map(|axes| axes.angular_frequencies_rad_per_s.as_slice());
-        let given_in = sweep.map(|axes| axes.given_in).unwrap_or_default();
+        let solver = solver_block::read(root, is_layer, default.unwrap_or_default());
+        let frequencies = sweep.map(|sweep| sweep.angular_frequencies_rad_per_s.as_slice());
+        let given_in = sweep.map(|sweep| sweep.given_in).unwrap_or_default();
         let figures = root.table_or(&keys::FIGURES, Figures::of_unit(given_in), |t| {
             figures_block::of_sweep(t, (frequencies, given_in))
         });
         let (figures, cycle) = (figures?, cycle?);
-        let (base, axes) = blocks.into_plan(sweep)?;
         let sweep = sweep?;
+        let (base, axes) = blocks.into_plan(sweep)?;
         let mut plan = SweepPlan {
             title: title?,
             base,
@@ -79,91 +80,85 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
 }
 
 /// The `[sweep]` block.
-struct Axes {
+struct Sweep {
     angular_frequencies_rad_per_s: Vec<f64>,
     given_in: FrequencyUnit,
-    swept: Vec<Swept>,
+    axes: Vec<Axis>,
     pairs: bool,
     refine: bool,
 }
 
-fn axes(mut table: TableReader<'_>, controlled: Dimension) -> Option<Axes> {
+fn read(mut table: TableReader<'_>, controlled: Dimension) -> Option<Sweep> {
     let problems = table.problems();
     let frequencies = frequencies(&mut table);
     let refine = table.value(&REFINE);
     let pairs = table.value(&PAIRS);
-    let mut swept = Vec::new();
-    let mut is_whole = true;
+    let (mut axes, mut is_whole) = (Vec::new(), true);
     for key in [MATERIAL_AXIS, LAYER_AXIS, INDENTER_AXIS, DRIVE_AXIS] {
-        match axis::read(&mut table, &key, (controlled, pairs.unwrap_or(false))) {
-            Some(found) => swept.extend(found),
-            None => is_whole = false,
-        }
+        let found = axis::read(&mut table, &key, controlled, pairs.unwrap_or(false));
+        is_whole &= found.is_some();
+        axes.extend(found.into_iter().flatten());
     }
     table.finish();
     let ((frequencies, given_in), pairs) = (frequencies?, pairs?);
-    check_axes(&swept, pairs, frequencies.len(), problems)?;
+    check_axes(&axes, pairs, frequencies.len(), problems)?;
     is_whole.then_some(())?;
     if pairs {
-        in_order_of_numbers(&mut swept);
+        in_order_of_numbers(&mut axes);
     }
-    Some(Axes {
+    Some(Sweep {
         angular_frequencies_rad_per_s: frequencies,
         given_in,
-        swept,
+        axes,
         pairs,
         refine: refine?,
     })
 }
 
 /// Puts pairs in ascending order of their numbers, and what is listed beside them in the same order.
-fn in_order_of_numbers(swept: &mut [Swept]) {
-    let numbers = swept.iter().filter(|axis| !axis.varied.is_whole());
-    let numbers: Vec<&[f64]> = numbers.map(|axis| axis.values.value.as_slice()).collect();
-    let pairs = swept.first().map_or(0, |axis| axis.values.value.len());
-    let of_pair = |k: usize| numbers.iter().map(move |values| values[k]);
+fn in_order_of_numbers(axes: &mut [Axis]) {
+    let pairs = axes.first().map_or(0, Axis::count);
+    let numbers: Vec<_> = axes.iter().filter_map(Axis::numbers).collect();
+    let of_pair = |k: usize| numbers.iter().map(move |numbers| numbers.value[k]);
     let mut order: Vec<usize> = (0..pairs).collect();
     order.sort_by(|a, b| {
         let order = of_pair(*a).partial_cmp(of_pair(*b));
         order.unwrap_or(std::cmp::Ordering::Equal)
     });
-    swept.iter_mut().for_each(|axis| axis.reorder(&order));
+    axes.iter_mut().for_each(|axis| axis.reorder(&order));
 }
 
 /// What axes must not be together.
-fn check_axes(swept: &[Swept], pairs: bool, frequencies: usize, problems: &Problems) -> Option<()> {
-    let (Some(first), Some(last)) = (swept.first(), swept.last()) else {
+fn check_axes(axes: &[Axis], pairs: bool, frequencies: usize, problems: &Problems) -> Option<()> {
+    let (Some(first), Some(last)) = (axes.first(), axes.last()) else {
         return Some(());
     };
-    if swept.len() > MOST_AXES {
+    if axes.len() > MOST_AXES {
         let what = format!("a sweep has at most {MOST_AXES} axes besides the frequency");
         problems
-            .at(&last.key_location, what)
+            .at(&last.key, what)
             .help("remove one, or make several sweeps of it");
         return None;
     }
-    let count = |axis: &Swept| axis.values.value.len();
-    if let Some(other) = swept
-        .iter()
-        .find(|axis| pairs && count(axis) != count(first))
-    {
+    let differs = |axis: &&Axis| pairs && axis.count() != first.count();
+    if let Some(other) = axes.iter().find(differs) {
         let what = "pairs need as many values on every axis";
         problems
-            .at(&other.key_location, what)
-            .because(format!("{} values", count(other)))
-            .label(&first.key_location, format!("{} values", count(first)))
+            .at(&other.key, what)
+            .because(format!("{} values", other.count()))
+            .label(&first.key, format!("{} values", first.count()))
             .help("give as many, or remove `pairs` for all combinations");
         return None;
     }
     let conditions = match pairs {
-        true => count(first),
-        false => swept.iter().map(count).fold(1, usize::saturating_mul),
+        true => first.count(),
+        false => axes.iter().map(Axis::count).fold(1, usize::saturating_mul),
     };
     let cases = conditions.saturating_mul(frequencies);
     if cases > MAX_CASES {
         problems
             .at(
-                &last.key_location,
+                &last.key,
                 format!("{cases} cases are more than a sweep may have, {MAX_CASES}"),
             )
             .help("make several sweeps of it");

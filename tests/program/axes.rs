@@ -347,6 +347,52 @@ fn a_flag_adds_an_axis_or_takes_the_place_of_its_values() {
 }
 
 #[test]
+fn a_flag_changes_an_axis_that_is_given_in_quotes() {
+    let time = "material.isotherm[0].branches[0].time";
+    let keys = |flag: &str| {
+        let text = format!("{FILE}\"{time}\" = [1, 2]\ndrive.mean = [1]\n");
+        let mut document = Document::parse("axes.toml", &text).unwrap();
+        document.set(flag).unwrap();
+        let axes = sweep_file::plan(&document).unwrap().axes.unwrap();
+        let number = |k| axes.numbers_of(k).iter().sum::<f64>();
+        let keys = axes.over.iter().enumerate();
+        keys.map(|(k, varied)| format!("{} {}", varied.path(), number(k)))
+            .collect::<Vec<_>>()
+    };
+    let mean = "drive.mean 1".to_owned();
+    for (flag, left) in [
+        (format!("sweep.{time}=[5, 6]"), Some(format!("{time} 11"))),
+        (
+            "sweep.material.isotherm.0.branches.0.time=[7]".to_owned(),
+            Some(format!("{time} 7")),
+        ),
+        (
+            "sweep.material={ poisson_ratio = [0.25] }".to_owned(),
+            Some("material.poisson_ratio 0.25".to_owned()),
+        ),
+        (format!("sweep.{time}="), None),
+        ("sweep.material.isotherm=".to_owned(), None),
+        ("sweep.material=".to_owned(), None),
+    ] {
+        let left: Vec<String> = left.into_iter().chain([mean.clone()]).collect();
+        assert_eq!(keys(&flag), left, "{flag}");
+    }
+}
+
+/// Where the temperature varies, beside what else, the one of the block is asked for nowhere.
+#[test]
+fn a_temperature_that_varies_takes_the_place_of_one_that_is_not_known() {
+    let axes =
+        "material.temperature = [\"20 °C\", \"60 °C\"]\nmaterial.poisson_ratio = [0.3, 0.4]\n";
+    let unknown = FILE.replacen("temperature = \"20 °C\"", "temperature = \"33 °C\"", 1);
+    let read = |text: &str| {
+        let document = Document::parse("axes.toml", &format!("{text}{axes}")).unwrap();
+        resolved_text(&sweep_file::plan(&document).unwrap())
+    };
+    assert_eq!(read(&unknown), read(FILE));
+}
+
+#[test]
 fn the_cases_over_several_axes_are_all_combinations_or_pairs_of_their_values() {
     let axes = "material.temperature = [\"60 °C\", \"20 °C\"]\nindenter.radius = [5e-3, 20e-3]\ndrive.mean = [1, 2]\n";
     let alone = |temperature: f64, radius: f64, mean: f64| {

@@ -108,6 +108,25 @@ impl<'a> TableReader<'a> {
         }
     }
 
+    /// What stands under a key, and then under those in quotes that lead below it, `material` and `"material.temperature"`. Counts as
+    /// asking for them.
+    pub(in crate::input) fn with_quoted(&mut self, key: &str) -> Vec<(&'a str, &'a Entry)> {
+        let below = |found: &str| {
+            found
+                .strip_prefix(key)
+                .is_some_and(|rest| rest.starts_with('.'))
+        };
+        let all = self.table.entries.iter();
+        let all = all.filter(|(found, _)| *found == key || below(found));
+        let all: Vec<_> = all.map(|(found, entry)| (found.as_str(), entry)).collect();
+        // The key itself may be there.
+        self.find(key);
+        for (found, _) in &all {
+            self.find(found);
+        }
+        all
+    }
+
     /// The value that belongs to the one of these keys that is present. None, or more than one, is a problem, and reported.
     pub(crate) fn one_of<T: Copy>(&mut self, choices: &[(&Key, T)]) -> Option<T> {
         let present: Vec<(&str, T, &Entry)> = choices
@@ -141,12 +160,19 @@ impl<'a> TableReader<'a> {
 
     /// Reports every key that was not asked for. Call it when all keys of the table were.
     pub(crate) fn finish(mut self) {
-        let asked: Vec<&str> = self.asked.iter().map(String::as_str).collect();
+        // Keys in quotes that lead below others are none that a message lists.
+        let asked = self.asked.iter().map(String::as_str);
+        let asked: Vec<&str> = asked.filter(|key| !key.contains('.')).collect();
         for (key, entry) in &self.table.entries {
-            if asked.contains(&key.as_str()) {
+            if self.asked.contains(key) {
                 continue;
             }
-            let meant = similar(key, &asked);
+            // Of a path in quotes it may be the first word that is wrong.
+            let word = key.split('.').next().filter(|word| !asked.contains(word));
+            let (key, meant) = match word.and_then(|word| Some((word, similar(word, &asked)?))) {
+                Some((word, meant)) => (word, Some(meant)),
+                None => (key.as_str(), similar(key, &asked)),
+            };
             self.problems.push(self.unknown(key, entry, meant, &asked));
             let is_meant = |absent: &String| meant == Some(absent);
             let mut missing = self.missing.iter();
@@ -284,6 +310,14 @@ impl<'a> TableReader<'a> {
     pub(crate) fn parsed(&mut self, key: &Key) -> Option<&'a Table> {
         self.find(key.name)?;
         self.table.table(key.name)
+    }
+
+    /// A document that has of this one such a table alone; `None` where it has none, which is reported.
+    pub(in crate::input) fn alone(&mut self, key: &Key) -> Option<Table> {
+        let is_table = self.table(key).is_some();
+        let entry = self.find(key.name).filter(|_| is_table)?;
+        let entries = [(key.name.to_owned(), entry.clone())].into();
+        Some(Table { entries })
     }
 
     /// What a table that may be left out holds, or what counts without it.

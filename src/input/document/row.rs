@@ -42,8 +42,10 @@ fn object(keys: &[&Key], decided_by: &[(&str, Option<&str>)]) -> Json {
         properties.insert(key.name.to_owned(), schema);
         if let Kind::Axes(axes) = &key.kind {
             let axes = AxisOf::new(axes);
-            properties.extend(axes.dotted());
-            patterns.extend(axes.dotted_patterns());
+            // In quotes they may be written in place of the table.
+            let before = format!("{}.", key.name);
+            properties.extend(axes.references(&before));
+            patterns.extend(axes.patterns(&before));
         }
     }
     for (key, word) in decided_by {

@@ -139,8 +139,8 @@ pub fn paths(kind: FileKind) -> Vec<String> {
     let mut paths = Vec::new();
     kind.rows().visit("", &mut |path, key| match &key.kind {
         Kind::Axes(axes) => {
-            let references = AxisOf::new(axes).references();
-            paths.extend(references.keys().map(|key| format!("{path}.{key}")));
+            let references = AxisOf::new(axes).references(&format!("{path}."));
+            paths.extend(references.into_iter().map(|(key, _)| key));
         }
         kind if kind.rows().is_none() => paths.push(path.to_owned()),
         _ => {}
