@@ -10,9 +10,9 @@ use super::failure::{Ended, Failure};
 use super::flags::{OutFlags, named};
 use super::folders::{in_folder, write_result};
 use super::output::{OutputFormat, tell};
-use crate::input::dynamic::{DynamicFormat, FORMATS};
-use crate::input::keys::material::{MOST_BRANCHES, MOST_REPLICAS};
+use crate::input::dynamic::DynamicFormat;
 use crate::input::table_file;
+use crate::material::dynamic::{MOST_BRANCHES, MOST_REPLICAS};
 use crate::material::fit;
 use crate::material::{Material, MaterialFunction, ModulusKind};
 use crate::quantity::{Dimension, parse};
@@ -121,7 +121,8 @@ fn temperature(text: &str) -> Result<f64, String> {
 }
 
 fn data_format() -> impl TypedValueParser<Value = DynamicFormat> {
-    named(FORMATS.map(|(name, format)| (format, name, "")))
+    let names = DynamicFormat::NAMES.iter();
+    named(names.map(|(name, format)| (*format, *name, "")))
 }
 
 /// What a file of measured data holds.

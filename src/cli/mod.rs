@@ -45,7 +45,7 @@ use commands::Arguments;
 use failure::Failure;
 use output::failed;
 
-use crate::input::dynamic::{FORMATS, silence_caught_panics};
+use crate::input::dynamic::{DynamicFormat, silence_caught_panics};
 
 /// Runs the program with these arguments, the first being its name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
@@ -81,7 +81,7 @@ fn advise_on_format(error: &mut clap::Error) {
         text(ContextKind::InvalidArg),
         text(ContextKind::InvalidValue),
     );
-    if flag.starts_with("--format ") && FORMATS.iter().any(|(name, _)| *name == value) {
+    if flag.starts_with("--format ") && DynamicFormat::WORDS.contains(&value) {
         let advice = format!("the format of data is named by '--data-format {value}'");
         let advice = ContextValue::StyledStrs(vec![advice.into()]);
         error.insert(ContextKind::Suggested, advice);

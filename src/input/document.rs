@@ -10,9 +10,10 @@
 //!   call it where a wrong value leaves open which keys belong to the table.
 
 pub(crate) mod block;
+pub(crate) mod declare;
 pub(crate) mod kind;
 pub(crate) mod reader;
-pub(crate) mod row;
+pub(crate) mod schema;
 pub(super) mod similar;
 pub(super) mod syntax;
 pub(crate) mod tree;

@@ -14,7 +14,6 @@ use super::keys::identify::{
     APPROACH_ZERO, DATA, IDENTIFY, IDENTIFY_BRANCHES, KNOWN_MATERIAL, MEASURED_DRIVE, MODEL_CYCLE,
 };
 use super::keys::material::BULK_MODULUS;
-use super::material_dynamic::number_of_branches;
 use super::segments_block::SEGMENTS;
 use super::{
     bodies_block, harmonic_block, material_block, measured_history, measured_table, segments_block,
@@ -137,7 +136,7 @@ struct Measured {
 fn measured_block(mut table: TableReader<'_>, drive: Option<&Driven>) -> Option<Measured> {
     let (folder, problems) = (table.folder(), table.problems());
     let data: Option<Located<String>> = table.read(&DATA);
-    let branches = number_of_branches(&mut table, &IDENTIFY_BRANCHES);
+    let branches = table.value(&IDENTIFY_BRANCHES);
     let approach_zero = table.value(&APPROACH_ZERO);
     let place_of_zero = table.key_location(&APPROACH_ZERO);
     table.finish();

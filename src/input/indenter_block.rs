@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use super::data_file;
 use super::diagnostic::{Diagnostics, Location};
+use super::document::declare::{choice, keys};
 use super::document::kind::Describe;
 use super::document::reader::TableReader;
-use super::document::row::{choice, keys};
 use super::document::{Located, block};
 use super::field_file;
 use super::field_file::Field;

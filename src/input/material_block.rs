@@ -288,8 +288,21 @@ fn from_block(
     };
     let made = match form {
         Form::Library | Form::Elastic | Form::Isotherms | Form::Dynamic => return None,
-        Form::Relaxation => of_relaxation(block, nu)?,
-        Form::Creep => of_creep(block, nu)?,
+        Form::Relaxation => {
+            let keys = [&RELAXATION, &MODULUS, &RELAXATION_ALTERNATIVE];
+            let replicas = material_temperature::replicas;
+            of_series(
+                block,
+                nu,
+                keys,
+                (relaxation, replicas, Material::from_relaxation),
+            )?
+        }
+        Form::Creep => {
+            let keys = [&CREEP, &COMPLIANCE, &CREEP_ALTERNATIVE];
+            let no_replicas = |_: &mut TableReader<'_>| Some(Vec::new());
+            of_series(block, nu, keys, (creep, no_replicas, Material::from_creep))?
+        }
         Form::Measured => {
             let table = table_of(block, &MEASURED_TABLE, |table| {
                 material_table::read(table, direct_sum)
@@ -331,22 +344,33 @@ fn from_block(
     Some(made.map(BodyMaterial::from))
 }
 
-/// A relaxation series, with what the noise of its data leaves open and the others that fit the same data.
-fn of_relaxation(
+/// A series of one function of a material: how it is read, how its replicas are, and the material that it makes.
+type Series<S> = (
+    fn(&mut TableReader<'_>) -> Option<Result<S, MaterialError>>,
+    fn(&mut TableReader<'_>) -> Option<Vec<S>>,
+    fn(S, ModulusKind, Compressibility) -> Result<Material, MaterialError>,
+);
+
+/// The material of a series, with what the noise of its data leaves open and the others that fit the same data.
+fn of_series<S>(
     block: &mut TableReader<'_>,
     nu: Option<Compressibility>,
+    [key, kind, others]: [&Key; 3],
+    (series, replicas, made_of): Series<S>,
 ) -> Option<Result<Material, MaterialError>> {
-    let own = table_of(block, &RELAXATION, |table| {
-        let kind = table.value(&MODULUS);
-        let own = relaxation(table);
-        let replicas = material_temperature::replicas(table);
+    let own = table_of(block, key, |table| {
+        let kind = table.value(kind);
+        let own = series(table);
+        let replicas = replicas(table);
         Some((own?, kind?, replicas?))
     });
-    let others = alternatives(block, &RELAXATION_ALTERNATIVE, relaxation);
-    let ((own, kind, replicas), others, nu) = (own?, others?, nu?);
-    let material = |series: Result<Relaxation, MaterialError>| {
-        Material::from_relaxation(series?, kind, nu.clone())
-    };
+    let others = block.tables(others, |mut table| {
+        let other = series(&mut table);
+        table.finish();
+        other
+    });
+    let ((own, kind, replicas), others, nu) = (own?, others?.value, nu?);
+    let material = |series: Result<S, _>| made_of(series?, kind, nu.clone());
     let others = others.into_iter().map(material).collect::<Result<_, _>>();
     let replicas = replicas.into_iter().map(|replica| material(Ok(replica)));
     let replicas = replicas.collect::<Result<_, _>>();
@@ -355,40 +379,6 @@ fn of_relaxation(
         own.origin.replicas = replicas?;
         Ok(own)
     }))
-}
-
-/// A creep series, with the others that fit the same data.
-fn of_creep(
-    block: &mut TableReader<'_>,
-    nu: Option<Compressibility>,
-) -> Option<Result<Material, MaterialError>> {
-    let own = table_of(block, &CREEP, |table| {
-        let kind = table.value(&COMPLIANCE);
-        creep(table).zip(kind)
-    });
-    let others = alternatives(block, &CREEP_ALTERNATIVE, creep);
-    let ((own, kind), others, nu) = (own?, others?, nu?);
-    let material =
-        |series: Result<Creep, MaterialError>| Material::from_creep(series?, kind, nu.clone());
-    let others = others.into_iter().map(material).collect::<Result<_, _>>();
-    Some(material(own).and_then(|mut own| {
-        own.origin.alternatives = others?;
-        Ok(own)
-    }))
-}
-
-/// The series beside another that fit the same data.
-fn alternatives<T>(
-    block: &mut TableReader<'_>,
-    key: &Key,
-    read: fn(&mut TableReader<'_>) -> Option<T>,
-) -> Option<Vec<T>> {
-    let others = block.tables(key, |mut table| {
-        let other = read(&mut table);
-        table.finish();
-        other
-    });
-    others.map(|others| others.value)
 }
 
 fn relaxation(table: &mut TableReader<'_>) -> Option<Result<Relaxation, MaterialError>> {

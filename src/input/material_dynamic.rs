@@ -3,20 +3,13 @@
 use std::sync::Arc;
 
 use super::data_file;
-use super::document::Located;
 use super::document::reader::TableReader;
-use super::dynamic::{self, DynamicFile, FORMATS, shift_factors_from_bytes};
-use super::keys::material::{
-    DYNAMIC_BRANCHES, DYNAMIC_FILE, DYNAMIC_FILES, DYNAMIC_MODULUS, DYNAMIC_REPLICAS, FORMAT,
-    REFERENCE_TEMPERATURE, SEED, SHIFT, SHIFT_FILE, VERTICAL_SHIFT,
-};
+use super::document::{Located, block};
+use super::dynamic::{self, DynamicFile, DynamicFormat, shift_factors_from_bytes};
+use super::keys::material::{DYNAMIC_FILE, DYNAMIC_FILES, DYNAMIC_MODULUS, FORMAT};
 use super::material_temperature::AtTemperature;
-use crate::material::dynamic::master_curve::ShiftChoice;
+use crate::material::dynamic::master_curve::{FACTORS, ShiftChoice};
 use crate::material::dynamic::{Characterisation, Choices, characterise};
-use crate::quantity::block::Field as _;
-use crate::quantity::key::{Key, Kind, words_of};
-use crate::quantity::rows::{Rows, table};
-use crate::quantity::setting::Value;
 
 /// Measured storage and loss moduli, and what was made of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,7 +40,7 @@ pub(super) fn read(mut table: TableReader<'_>) -> Option<Arc<DynamicFit>> {
         Some(false) => several(&mut table),
         None => None,
     };
-    let format = table.chosen(&FORMAT, &FORMATS);
+    let format: Option<Option<DynamicFormat>> = table.value(&FORMAT);
     let kind = table.value(&DYNAMIC_MODULUS);
     let choices = choices(&mut table);
     let (place, folder, problems) = (table.as_ref().clone(), table.folder(), table.problems());
@@ -83,48 +76,19 @@ fn several(table: &mut TableReader<'_>) -> Option<Vec<Located<String>>> {
 }
 
 fn choices(table: &mut TableReader<'_>) -> Option<Choices> {
-    let reference = table.value(&REFERENCE_TEMPERATURE);
-    let shift = match table.parsed(&SHIFT) {
-        None => table.chosen(&SHIFT, ShiftChoice::WORDS),
-        Some(_) => table.table(&SHIFT).and_then(|mut table| {
-            let file: Option<Located<String>> = table.read(&SHIFT_FILE);
-            let (folder, problems) = (table.folder(), table.problems());
-            table.finish();
-            let factors = data_file::made_of(&file?, folder, problems, shift_factors_from_bytes);
-            factors.map(|factors| Some(ShiftChoice::Given(factors)))
-        }),
-    };
-    let vertical = table.value(&VERTICAL_SHIFT);
-    let branches = number_of_branches(table, &DYNAMIC_BRANCHES);
-    let (replicas, seed) = (table.value(&DYNAMIC_REPLICAS), table.value(&SEED));
-    Some(Choices {
-        reference_temperature_k: reference?,
-        shift: shift?.unwrap_or(ShiftChoice::Free),
-        vertical_shift: vertical?,
-        branches: branches?,
-        replicas: replicas?,
-        seed: seed?,
+    let choices: Option<Choices> = block::read_from(table, None);
+    let given = table.table_if("shift", |mut table| {
+        let file: Option<Located<String>> = table.read(&FACTORS);
+        let (folder, problems) = (table.folder(), table.problems());
+        table.finish();
+        data_file::made_of(&file?, folder, problems, shift_factors_from_bytes)
+    });
+    let choices = choices?;
+    Some(match given? {
+        Some(factors) => Choices {
+            shift: ShiftChoice::Given(factors),
+            ..choices
+        },
+        None => choices,
     })
-}
-
-const SHIFT_WORDS: [&str; ShiftChoice::WORDS.len()] = words_of(ShiftChoice::WORDS);
-
-static SHIFT_TABLE: Rows = table(" Shift factors of a file.", &[&[SHIFT_FILE]]);
-
-/// How isotherms are shifted: a word, or a table that names a file.
-pub(super) const SHIFT_KIND: Kind = Kind::Either(
-    &Kind::Word(&SHIFT_WORDS),
-    &Kind::Table(&SHIFT_TABLE),
-    " with a file",
-);
-
-/// A number of branches, or `auto`.
-pub(super) const fn branches(number: &'static Kind) -> Kind {
-    Kind::Either(&Kind::Word(&["auto"]), number, "")
-}
-
-/// The number of branches under such a key, where it is asked for; `None` where a problem was reported.
-pub(super) fn number_of_branches(table: &mut TableReader<'_>, key: &Key) -> Option<Option<usize>> {
-    let found: Option<Value> = table.value(key)?;
-    Some(found.and_then(usize::of))
 }

@@ -5,7 +5,7 @@ use serde_json::{Value as Json, json};
 use super::diagnostic::{Diagnostic, Diagnostics};
 use super::document::kind::{Asked, Describe};
 use super::document::reader::TableReader;
-use super::document::row;
+use super::document::schema;
 use super::document::tree::Value;
 use super::keys::drive::{FROM, POINTS, SPACING, TO};
 use crate::quantity::block::Field;
@@ -26,7 +26,7 @@ words! {
 /// What a JSON Schema says of points of this kind, or of a range with these keys.
 pub(super) fn schema(number: &Number, range: &Rows) -> Json {
     let points = json!({ "type": "array", "items": number.schema(), "minItems": 1, "maxItems": MOST_POINTS });
-    let mut range = row::schema(range);
+    let mut range = schema::of_table(range);
     for end in [FROM, TO] {
         let means = range["properties"][end.name]["description"].take();
         range["properties"][end.name] = number.schema();

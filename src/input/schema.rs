@@ -6,14 +6,14 @@ use serde_json::{Map, Value as Json, json};
 
 use super::axis::AxisOf;
 use super::document::kind::text_definitions;
-use super::document::row;
+use super::document::schema;
 use super::keys::FileKind;
 use super::keys::drive::LISTED;
 use crate::quantity::key::Kind;
 
 /// The schema of a kind of input file, as the text of a file.
 pub fn text(kind: FileKind) -> String {
-    let mut schema = row::schema(kind.rows());
+    let mut schema = schema::of_table(kind.rows());
     schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
     schema["title"] = json!(kind.rows().means.trim());
     if kind == FileKind::Sweep {
@@ -22,7 +22,7 @@ pub fn text(kind: FileKind) -> String {
     let mut parts = Map::new();
     kind.rows().visit("", &mut |_, key| {
         if let Kind::Axes(axes) = &key.kind {
-            parts.extend(AxisOf::new(axes).definitions());
+            parts.extend(AxisOf(axes).definitions());
         }
     });
     let referring = format!("{schema}{}", Json::Object(parts.clone()));
@@ -265,7 +265,7 @@ fn value_name(value: &Json) -> (String, String) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input::document::row::keys;
+    use crate::input::document::declare::keys;
     use crate::quantity::Dimension::Length;
     use crate::quantity::key::quantity;
     use crate::quantity::rows::{List, Others, Rows, table};
@@ -301,7 +301,7 @@ mod tests {
 
     /// The lines of the schema of a table under the key `body`.
     fn lines(rows: &Rows) -> Vec<String> {
-        let body = json!({ "properties": { "body": row::schema(rows) } });
+        let body = json!({ "properties": { "body": schema::of_table(rows) } });
         let mut schema = json!({ "properties": body["properties"], "$defs": {} });
         define_longer_parts(&mut schema);
         let text = format!("{schema:#}");

@@ -11,7 +11,7 @@ use std::time::Duration;
 use contact_dma::engine::EngineKind;
 use contact_dma::input::diagnostic::{Diagnostics, Styling};
 use contact_dma::input::document::Document;
-use contact_dma::input::dynamic::{self, DynamicFormat, FORMATS};
+use contact_dma::input::dynamic::{self, DynamicFormat};
 use contact_dma::input::{field_file, scenario_file, sweep_file};
 use contact_dma::material::ModulusKind;
 use contact_dma::quantity::{self, Dimension};
@@ -135,7 +135,7 @@ pub fn dynamic_file(bytes: &[u8]) -> bool {
     }
     let format = usize::from(*first)
         .checked_sub(1)
-        .and_then(|place| FORMATS.get(place % FORMATS.len()));
+        .and_then(|place| DynamicFormat::NAMES.get(place % DynamicFormat::NAMES.len()));
     let format = format.map(|(_, format)| *format);
     // The crate that reads workbooks panics on some, which is caught, but not under the fuzzer.
     let is_workbook = content.starts_with(b"PK") || content.starts_with(b"\xd0\xcf");

@@ -265,8 +265,9 @@ impl<T: Field> Field for Option<T> {
         self.as_ref()?.written(kind)
     }
 
+    /// A value of another kind, such as a word in place of a number, stands for none.
     fn of(value: Value) -> Option<Self> {
-        T::of(value).map(Some)
+        Some(T::of(value))
     }
 
     fn absent() -> Option<Self> {

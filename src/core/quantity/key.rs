@@ -91,6 +91,9 @@ pub struct AxesOf {
 }
 
 impl Kind {
+    /// In place of a number: as many as it takes.
+    pub const AUTO: Self = Self::Word(&["auto"]);
+
     /// What is expected, with its article.
     pub fn expected(&self) -> String {
         if let Some((item, entries)) = self.item() {

@@ -6,20 +6,15 @@ use serde_json::{Map, Value as Json, json};
 
 use crate::input::document::kind::Describe;
 use crate::input::document::reader::join;
-use crate::input::document::row;
+use crate::input::document::schema;
 use crate::input::keys::drive::RANGE;
 use crate::input::points;
 use crate::quantity::Dimension;
-use crate::quantity::block::Word;
 use crate::quantity::key::{AxesOf, Key, Kind, Number};
 use crate::quantity::rows::Rows;
-use crate::sweep::plan::Block;
 
 /// The numbers of a block, or the block itself.
-pub(crate) struct AxisOf {
-    pub(super) block: Block,
-    of: AxesOf,
-}
+pub(crate) struct AxisOf<'a>(pub(crate) &'a AxesOf);
 
 /// A key that has a number.
 pub(super) struct AxisNumber {
@@ -67,24 +62,11 @@ fn reference(definition: &str) -> Json {
     json!({ "$ref": format!("#/$defs/{definition}") })
 }
 
-impl AxisOf {
-    pub(crate) fn new(of: &AxesOf) -> Self {
-        let block = Block::ALL.iter().find(|(name, _)| *name == of.block);
-        Self {
-            block: block.map_or(Block::Material, |(_, block)| *block),
-            of: *of,
-        }
-    }
-
-    /// Whether whole blocks may vary, in a list.
-    pub(super) fn may_be_listed(&self) -> bool {
-        self.of.listed.is_some()
-    }
-
+impl AxisOf<'_> {
     /// Every key of the block that has a number, those of the tables within it too; `controlled` is the dimension of what the drive controls.
     pub(super) fn numbers(&self, controlled: Dimension) -> Vec<AxisNumber> {
         let mut numbers = Vec::new();
-        add_numbers(self.of.rows, "", controlled, &mut numbers);
+        add_numbers(self.0.rows, "", controlled, &mut numbers);
         numbers
     }
 
@@ -120,7 +102,7 @@ impl AxisOf {
     }
 
     fn definition(&self, key: &str) -> String {
-        format!("over-{}-{key}", self.block.name())
+        format!("over-{}-{key}", self.0.block)
     }
 
     /// What a JSON Schema says of each key, by the name that it is referred to; whatever the drive controls.
@@ -143,7 +125,7 @@ impl AxisOf {
     }
 }
 
-impl Describe for AxisOf {
+impl Describe for AxisOf<'_> {
     fn example(&self) -> String {
         let numbers = self.numbers(Dimension::Force);
         let first = numbers.first().map_or("", |number| &number.key);
@@ -158,8 +140,8 @@ impl Describe for AxisOf {
             "minProperties": 1,
             "additionalProperties": false,
         });
-        let listed = |rows: &'static Rows| json!({ "type": "array", "items": row::schema(rows), "minItems": 1 });
-        match self.of.listed {
+        let listed = |rows: &'static Rows| json!({ "type": "array", "items": schema::of_table(rows), "minItems": 1 });
+        match self.0.listed {
             Some(rows) => json!({ "anyOf": [numbers, listed(rows)] }),
             None => numbers,
         }

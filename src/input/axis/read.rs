@@ -14,7 +14,7 @@ use crate::input::keys::drive::RANGE;
 use crate::input::keys::material::{LIBRARY, NAME};
 use crate::input::points::MOST_POINTS;
 use crate::quantity::Dimension;
-use crate::quantity::block::Field;
+use crate::quantity::block::{Field, Word};
 use crate::quantity::key::{Entries, Key, Kind};
 use crate::sweep::plan::{Block, Varied};
 
@@ -32,10 +32,11 @@ pub(in crate::input) fn read(
     let Kind::Axes(of) = &key.kind else {
         return Some(Vec::new());
     };
-    let of = AxisOf::new(of);
+    let known = Block::ALL.iter().find(|(name, _)| *name == key.name);
     let reading = Reading {
-        numbers: of.numbers(controlled),
-        of,
+        block: known.map(|(_, block)| *block)?,
+        numbers: AxisOf(of).numbers(controlled),
+        may_be_listed: of.listed.is_some(),
         kind: &key.kind,
         pairs,
         problems: sweep.problems(),
@@ -55,7 +56,8 @@ pub(in crate::input) fn read(
 }
 
 struct Reading<'a> {
-    of: AxisOf,
+    block: Block,
+    may_be_listed: bool,
     kind: &'a Kind,
     numbers: Vec<AxisNumber>,
     pairs: bool,
@@ -67,7 +69,7 @@ impl Reading<'_> {
     /// `zener.time = [...]`.
     fn add(&self, path: Path, entry: &Entry, to: &mut Vec<Axis>) -> Option<()> {
         let general = path.general();
-        let (key, is_block) = (self.within(&general), general == self.of.block.name());
+        let (key, is_block) = (self.within(&general), general == self.block.name());
         let is_below = |number: &AxisNumber| {
             let below = number.key.strip_prefix(key);
             is_block || below.is_some_and(|below| below.starts_with(['.', '[']))
@@ -77,13 +79,13 @@ impl Reading<'_> {
             (Some(number), _) => self.over_number(number, path, entry)?,
             (None, Value::Table(table)) if self.numbers.iter().any(is_below) => {
                 if table.entries.is_empty() {
-                    let help = format!("write the key of [{}] that varies", self.of.block.name());
+                    let help = format!("write the key of [{}] that varies", self.block.name());
                     return self.empty(&path, entry, help);
                 }
                 let mut inner = table.entries.iter();
                 return inner.try_for_each(|(k, e)| self.add(path.and(k, &e.key), e, to));
             }
-            (None, Value::Array(items)) if is_block && self.of.may_be_listed() => {
+            (None, Value::Array(items)) if is_block && self.may_be_listed => {
                 self.over_blocks(items, path, entry)?
             }
             (None, _) if is_block => return self.no_table(&entry.node),
@@ -103,7 +105,7 @@ impl Reading<'_> {
 
     /// The part of a key that is within the block.
     fn within<'k>(&self, key: &'k str) -> &'k str {
-        let within = key.strip_prefix(self.of.block.name()).unwrap_or(key);
+        let within = key.strip_prefix(self.block.name()).unwrap_or(key);
         within.strip_prefix('.').unwrap_or(within)
     }
 
@@ -128,7 +130,7 @@ impl Reading<'_> {
             false => Cow::Borrowed(row.name),
         };
         Some(Axis {
-            varied: Varied::number(self.of.block, name, scalar.dimension),
+            varied: Varied::number(self.block, name, scalar.dimension),
             values: points.into_iter().map(value).collect(),
             key: entry.key.clone(),
             path,
@@ -137,7 +139,7 @@ impl Reading<'_> {
 
     /// The axis that a list of blocks is, each with a name of its own.
     fn over_blocks(&self, items: &[Node], path: Path, entry: &Entry) -> Option<Axis> {
-        let (problems, block) = (self.problems, self.of.block.name());
+        let (problems, block) = (self.problems, self.block.name());
         let named = items.iter().enumerate();
         let named = named.map(|(k, item)| self.named(item, format!("sweep.{path}[{k}]")));
         // All are read, so that all problems are reported.
@@ -159,7 +161,7 @@ impl Reading<'_> {
             return self.empty(&path, entry, help);
         }
         is_whole.then(|| Axis {
-            varied: Varied::blocks(self.of.block, names),
+            varied: Varied::blocks(self.block, names),
             // A header opens each item of the list.
             key: entry.node.location.clone(),
             path,
@@ -188,7 +190,7 @@ impl Reading<'_> {
         let place = given.map_or(location.clone(), |given| given.location);
         self.check_name(&name, &path, &place)?;
         let mut table = table.clone();
-        match self.of.block {
+        match self.block {
             Block::Material => {
                 let node = Node {
                     value: Value::Text(name.clone()),
@@ -218,7 +220,7 @@ impl Reading<'_> {
 
     /// Something in place of the table of axes.
     fn no_table<T>(&self, node: &Node) -> Option<T> {
-        let block = self.of.block.name();
+        let block = self.block.name();
         let message = format!("`sweep.{block}` must be {}", self.kind.expected());
         (self.problems.at(&node.location, message))
             .because(format!("found {}", node.describe()))
@@ -231,7 +233,7 @@ impl Reading<'_> {
         let message = format!("`{path}` must be a table");
         (self.problems.at(&item.location, message))
             .because(format!("found {}", item.describe()))
-            .help(match (&item.value, self.of.block) {
+            .help(match (&item.value, self.block) {
                 (Value::Text(name), Block::Material) => {
                     format!("write `{{ library = \"{name}\" }}`")
                 }
@@ -261,7 +263,7 @@ impl Reading<'_> {
 
     /// A number in a table or list of blocks that may each have others.
     fn within_listed<T>(&self, nested: &Axis) -> Option<T> {
-        let (block, key) = (self.of.block.name(), &nested.varied.key);
+        let (block, key) = (self.block.name(), &nested.varied.key);
         let message = format!("`{block}.{key}` cannot be an axis beside a list of blocks");
         (self.problems.at(&nested.key, message))
             .because("a number within a table of the block")
@@ -274,7 +276,7 @@ impl Reading<'_> {
     /// A key that no number stands under.
     fn no_number<T>(&self, path: &Path, entry: &Entry) -> Option<T> {
         let names: Vec<&str> = self.numbers.iter().map(|n| n.key.as_str()).collect();
-        let block = self.of.block.name();
+        let block = self.block.name();
         let message = format!("`sweep.{path}` cannot be an axis");
         let report = self.problems.at(&entry.key, message);
         let report = report.because(format!("no key of [{block}] that takes one number"));

@@ -2,7 +2,7 @@
 
 use super::reader::TableReader;
 use crate::quantity::block::{Block, Reported, Source};
-use crate::quantity::key::Key;
+use crate::quantity::key::{Key, Kind};
 use crate::quantity::setting::Value;
 
 /// Reads a block to its end, with the values of `given` where the table has none; `None` where a problem was reported.
@@ -31,6 +31,12 @@ pub(crate) fn read_from<B: Block>(table: &mut TableReader<'_>, given: Option<&B>
 
 impl Source for TableReader<'_> {
     fn value(&mut self, key: &'static Key) -> Result<Option<Value>, Reported> {
+        // A table in place of a word is read by itself.
+        if let Kind::Either(_, Kind::Table(_), _) = key.kind
+            && self.parsed(key).is_some()
+        {
+            return Ok(None);
+        }
         let found = self.under(key).ok_or(Reported)?;
         Ok(found.map(|located| located.value))
     }

@@ -9,7 +9,7 @@ use serde_json::{Value as Json, json};
 
 use super::Located;
 use super::reader::TableReader;
-use super::row;
+use super::schema;
 use super::similar::similar;
 use super::tree::{Node, Table, Value as Toml};
 use crate::input::axis::AxisOf;
@@ -109,7 +109,7 @@ impl Describe for Kind {
             Self::Table(_) => "{ ... }".to_owned(),
             Self::Tables(..) => "[{ ... }]".to_owned(),
             Self::Either(first, ..) => first.example(),
-            Self::Axes(axes) => AxisOf::new(axes).example(),
+            Self::Axes(axes) => AxisOf(axes).example(),
             _ => "\"...\"".to_owned(),
         }
     }
@@ -130,12 +130,12 @@ impl Describe for Kind {
             Self::Number(number) => number.schema(),
             Self::Word(words) => json!({ "enum": words }),
             Self::Points(number, range) => points::schema(number, range),
-            Self::Table(rows) => row::schema(rows),
+            Self::Table(rows) => schema::of_table(rows),
             Self::Tables(rows, most, _) => {
-                json!({ "type": "array", "items": row::schema(rows), "maxItems": most })
+                json!({ "type": "array", "items": schema::of_table(rows), "maxItems": most })
             }
             Self::Either(first, second, _) => json!({ "anyOf": [first.schema(), second.schema()] }),
-            Self::Axes(axes) => AxisOf::new(axes).schema(),
+            Self::Axes(axes) => AxisOf(axes).schema(),
             _ => json!({ "type": "string" }),
         }
     }

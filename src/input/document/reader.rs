@@ -333,6 +333,18 @@ impl<'a> TableReader<'a> {
         }
     }
 
+    /// What a table under a key of this name holds, where there is one.
+    pub(crate) fn table_if<T>(
+        &mut self,
+        key: &str,
+        read: impl FnOnce(TableReader<'a>) -> Option<T>,
+    ) -> Option<Option<T>> {
+        match self.table.table(key) {
+            Some(_) => self.below(key).and_then(read).map(Some),
+            None => Some(None),
+        }
+    }
+
     /// The table `key`, which is there.
     fn below(&mut self, key: &str) -> Option<TableReader<'a>> {
         let node = &self.find(key)?.node;

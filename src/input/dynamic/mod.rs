@@ -39,6 +39,7 @@ use crate::material::ModulusKind;
 use crate::material::dynamic::{DynamicData, DynamicDataError};
 use crate::quantity::{FrequencyUnit, celsius};
 use block::{Block, Content, Measured};
+use contact_dma_core::words;
 use formats::Format;
 pub use shift_factors::{read_shift_factors, shift_factors_from_bytes};
 
@@ -48,39 +49,19 @@ pub const MAX_BYTES: usize = 32_000_000;
 /// What to do about a file that is larger.
 const FEWER: &str = "export fewer columns, and no waveforms";
 
-/// A format of files of dynamic data.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum DynamicFormat {
-    /// Named columns with units.
-    Generic,
-    Pyvisco,
-    TriosText,
-    TriosLims,
-    TriosCsv,
-    RheoCompass,
-    Reptate,
-    Eplexor,
-    Hysitron,
-}
-
-/// The words by which files and flags call the formats.
-pub const FORMATS: [(&str, DynamicFormat); 9] = [
-    ("table", DynamicFormat::Generic),
-    ("pyvisco", DynamicFormat::Pyvisco),
-    ("trios-text", DynamicFormat::TriosText),
-    ("trios-lims", DynamicFormat::TriosLims),
-    ("trios-csv", DynamicFormat::TriosCsv),
-    ("rheocompass", DynamicFormat::RheoCompass),
-    ("reptate", DynamicFormat::Reptate),
-    ("eplexor", DynamicFormat::Eplexor),
-    ("hysitron", DynamicFormat::Hysitron),
-];
-
-impl DynamicFormat {
-    /// The word by which files and flags call it.
-    pub fn name(self) -> &'static str {
-        let own = FORMATS.iter().find(|(_, format)| *format == self);
-        own.map_or("", |(name, _)| name)
+words! {
+    /// A format of files of dynamic data.
+    pub enum DynamicFormat {
+        /// Named columns with units.
+        Generic = "table",
+        Pyvisco = "pyvisco",
+        TriosText = "trios-text",
+        TriosLims = "trios-lims",
+        TriosCsv = "trios-csv",
+        RheoCompass = "rheocompass",
+        Reptate = "reptate",
+        Eplexor = "eplexor",
+        Hysitron = "hysitron",
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::material::MATERIAL;
 use crate::drive::Control;
-use crate::input::document::row::keys;
+use crate::input::document::declare::keys;
 use crate::input::indenter_block::{INDENTER, LISTED_INDENTER};
 use crate::input::points::{MOST_POINTS, Spacing};
 use crate::quantity::Dimension::{

@@ -3,7 +3,7 @@
 use std::ops::Bound;
 
 use super::material::EQUILIBRIUM;
-use crate::input::document::row::{choice, keys};
+use crate::input::document::declare::{choice, keys};
 use crate::material::{ModulusKind, fractional};
 use crate::quantity::Dimension::{AngularFrequency, Stress, Time};
 use crate::quantity::block::Block as _;

@@ -3,8 +3,7 @@
 use super::material::{BULK_MODULUS, POISSON_RATIO};
 use super::{ADHESION, INDENTER, LAYER, SOLVER, TITLE, drive};
 use crate::identify::{ApproachZero, MOST_BRANCHES};
-use crate::input::document::row::keys;
-use crate::input::material_dynamic::branches;
+use crate::input::document::declare::keys;
 use crate::input::segments_block::SEGMENTS;
 use crate::quantity::block::Block as _;
 use crate::quantity::key::{Key, Kind};
@@ -16,7 +15,7 @@ keys! {
     /// `approach_m`, or `load_n` under a prescribed approach.
     DATA = "data", Kind::Text;
     /// Branches of the series: a number, or `auto` (the default): as many as the data require.
-    IDENTIFY_BRANCHES = "branches", branches(&Kind::Integer(1..=MOST_BRANCHES)), optional;
+    IDENTIFY_BRANCHES = "branches", Kind::Either(&Kind::AUTO, &Kind::Integer(1..=MOST_BRANCHES), ""), optional;
     /// What smallest, largest and mean approaches of cycles are counted from; left out: unknown in a table of `analyse`, from first contact
     /// in any other. Where it is unknown they are not data, and the mean of a prescribed approach is that of `[drive]`.
     APPROACH_ZERO = "approach_zero", Kind::Word(ApproachZero::WORDS), optional;

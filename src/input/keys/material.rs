@@ -1,13 +1,13 @@
 //! Keys of `[material]`: a series, a model of few elements, measured data or a material of the library.
 
 use super::fractional;
-use crate::input::document::row::keys;
-use crate::input::dynamic::FORMATS;
-use crate::input::material_dynamic::{SHIFT_KIND, branches};
+use crate::input::document::declare::keys;
+use crate::input::dynamic::DynamicFormat;
+use crate::material::dynamic::{Choices, MOST_BRANCHES, MOST_REPLICAS};
 use crate::material::{CreepBranch, MaterialFunction, ModulusKind, RelaxationBranch};
 use crate::quantity::Dimension::{Compliance, Stress, Temperature, Time, Viscosity};
 use crate::quantity::block::Block as _;
-use crate::quantity::key::{self, Entries, Key, Kind, Number, number, quantity, words_of};
+use crate::quantity::key::{self, Entries, Key, Kind, Number, number, quantity};
 use crate::quantity::rows::{List, Others, Rows, table};
 use contact_dma_core::{block, words};
 
@@ -28,16 +28,10 @@ const WINDOW: &str =
 const COLDEST_FIRST: &str =
     "write the lowest temperature first: measured_temperatures = [\"-10 °C\", \"80 °C\"]";
 
-/// More branches than any fit resolves are a mistake in the file.
-pub(crate) const MOST_BRANCHES: usize = 1000;
 /// Twice as many as a fit gives.
 const MOST_ALTERNATIVES: usize = 64;
-/// More tell no more of a spread.
-pub(crate) const MOST_REPLICAS: usize = 1000;
 /// More curves than this are no sweep over temperature.
 const MOST_ISOTHERMS: usize = 1000;
-/// The largest integer of TOML.
-const MOST_SEED: usize = i64::MAX as usize;
 
 const MODULUS_OR_ZERO: Kind = Kind::Number(quantity(Stress).not_negative());
 const TEMPERATURES: Number = quantity(Temperature).above_zero();
@@ -322,51 +316,19 @@ static TABLE: Rows = Rows {
     others: Others::OneList(&[&[&[FILE]], &[&[TIMES, VALUES]]]),
 };
 
-const FORMAT_WORDS: [&str; FORMATS.len()] = words_of(&FORMATS);
-
 keys! {
     /// Format of the files; left out: detected from their content.
-    FORMAT = "format", Kind::Word(&FORMAT_WORDS), optional;
+    FORMAT = "format", Kind::Word(DynamicFormat::WORDS), optional;
     /// Whether the moduli are Young's or shear moduli.
     DYNAMIC_MODULUS = "modulus", KINDS;
-    /// Temperature of the master curve; left out: that of the middle isotherm.
-    REFERENCE_TEMPERATURE = "reference_temperature", Kind::Number(TEMPERATURES), optional;
-    /// How isotherms are shifted onto one curve: each individually (`free`, the default), by a law fitted to the data, not at all, or by
-    /// factors from a file.
-    SHIFT = "shift", SHIFT_KIND, optional;
-    /// Whether they are also shifted vertically, along the moduli.
-    VERTICAL_SHIFT = "vertical_shift", Kind::Flag, or false;
-    /// Branches of the series: a number, or `auto` (the default): as many as the data resolve.
-    DYNAMIC_BRANCHES = "branches", branches(&Kind::Integer(1..=MOST_BRANCHES)), optional;
-    /// Number of replicas of the material for the uncertainty of the results due to the noise of the data; 50 determine it to about
-    /// 10 %.
-    DYNAMIC_REPLICAS = "replicas", Kind::Integer(0..=MOST_REPLICAS), or 0_usize;
-    /// Seed of the random numbers for the replicas.
-    SEED = "seed", Kind::Integer(0..=MOST_SEED), or 1_usize;
     /// File of an instrument, or a table.
     DYNAMIC_FILE = "file", Kind::Text;
     /// Several of one specimen.
     DYNAMIC_FILES = "files", Kind::Texts(Entries::ANY);
 }
 
-const DYNAMIC_KEYS: &[Key] = &[
-    FORMAT,
-    DYNAMIC_MODULUS,
-    REFERENCE_TEMPERATURE,
-    SHIFT,
-    VERTICAL_SHIFT,
-    DYNAMIC_BRANCHES,
-    DYNAMIC_REPLICAS,
-    SEED,
-];
-
 static DYNAMIC_TABLE: Rows = Rows {
     means: " Measured storage and loss modulus: a `file`, or `files`.",
-    keys: &[DYNAMIC_KEYS],
+    keys: &[&[FORMAT, DYNAMIC_MODULUS], Choices::KEYS],
     others: Others::OneList(&[&[&[DYNAMIC_FILE]], &[&[DYNAMIC_FILES]]]),
 };
-
-keys! {
-    /// CSV file with the columns `temperature_c` and `log10_a_t`.
-    SHIFT_FILE = "file", Kind::Text;
-}

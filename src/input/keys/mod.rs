@@ -8,7 +8,7 @@ pub(crate) mod material;
 pub(super) mod setup;
 
 use super::axis::AxisOf;
-use super::document::row::keys;
+use super::document::declare::keys;
 use super::scenario_file::TimePlan;
 use super::{figures_block, indenter_block, segments_block};
 use crate::engine::SolverPlan;
@@ -139,7 +139,7 @@ pub fn paths(kind: FileKind) -> Vec<String> {
     let mut paths = Vec::new();
     kind.rows().visit("", &mut |path, key| match &key.kind {
         Kind::Axes(axes) => {
-            let references = AxisOf::new(axes).references(&format!("{path}."));
+            let references = AxisOf(axes).references(&format!("{path}."));
             paths.extend(references.into_iter().map(|(key, _)| key));
         }
         kind if kind.rows().is_none() => paths.push(path.to_owned()),

@@ -1,6 +1,6 @@
 //! Keys of a setup file: the instrument and the contact of measured loops.
 
-use crate::input::document::row::keys;
+use crate::input::document::declare::keys;
 use crate::input::indenter_block::INDENTER;
 use crate::measured::Corrections;
 use crate::quantity::block::Block as _;

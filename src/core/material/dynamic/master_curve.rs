@@ -11,7 +11,11 @@ use super::interpolation::{self, monotone};
 use super::neighbours;
 use super::shift_law::{Arrhenius, ShiftLaw, Wlf};
 use super::{Choices, DynamicData, DynamicPoint};
+use crate::quantity::block::Field;
 use crate::quantity::celsius;
+use crate::quantity::key::{Key, Kind, Presence, words_of};
+use crate::quantity::rows::{Rows, table};
+use crate::quantity::setting::Value;
 use work::Work;
 
 /// How shift factors are found.
@@ -37,7 +41,38 @@ impl ShiftChoice {
         (Arrhenius::NAME, Self::Arrhenius),
         ("none", Self::None),
     ];
+
+    /// One of the words, or a table that names a file.
+    pub const KIND: Kind = Kind::Either(
+        &Kind::Word(&words_of::<Self, 4>(Self::WORDS)),
+        &Kind::Table(&FILE_OF_FACTORS),
+        " with a file",
+    );
 }
+
+impl Field for ShiftChoice {
+    fn written(&self, _: &Kind) -> Option<Value> {
+        let mut words = Self::WORDS.iter();
+        let (word, _) = words.find(|(_, choice)| choice == self)?;
+        Some((*word).into())
+    }
+
+    fn of(value: Value) -> Option<Self> {
+        let word = String::of(value)?;
+        let found = Self::WORDS.iter().find(|(known, _)| *known == word);
+        found.map(|(_, choice)| choice.clone())
+    }
+}
+
+/// CSV file with the columns `temperature_c` and `log10_a_t`.
+pub const FACTORS: Key = Key {
+    name: "file",
+    means: " CSV file with the columns `temperature_c` and `log10_a_t`.",
+    kind: Kind::Text,
+    presence: Presence::Required,
+};
+
+static FILE_OF_FACTORS: Rows = table(" Shift factors of a file.", &[&[FACTORS]]);
 
 /// How far outside of the given factors a temperature may be (K).
 pub const GIVEN_TOLERANCE_K: f64 = 0.5;

@@ -18,10 +18,19 @@ pub mod shift_law;
 mod synthetic;
 
 use super::{Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch};
+use crate::block_with_defaults;
+use crate::quantity::Dimension::Temperature;
+use crate::quantity::key::{Kind, quantity};
 use master_curve::{MasterCurve, MasterCurveError, ShiftChoice, ShiftFactor};
 use prony::{PronyError, PronyFit};
 use replicas::Replica;
 use shift_law::Wlf;
+
+/// More branches than any fit resolves are a mistake in the file.
+pub const MOST_BRANCHES: usize = 1000;
+/// More tell no more of a spread.
+pub const MOST_REPLICAS: usize = 1000;
+const BRANCHES: Kind = Kind::Either(&Kind::AUTO, &Kind::Integer(1..=MOST_BRANCHES), "");
 
 /// Storage and loss modulus at one frequency and temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -201,32 +210,23 @@ impl Isotherm {
     }
 }
 
-/// What is made of dynamic data, and how.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Choices {
-    /// `None`: the temperature of the middle isotherm, or the one at which given shift factors are zero.
-    pub reference_temperature_k: Option<f64>,
-    pub shift: ShiftChoice,
-    /// Whether isotherms are shifted along the moduli too.
-    pub vertical_shift: bool,
-    /// Branches of the series; `None`: as many as the data resolve.
-    pub branches: Option<usize>,
-    /// Replicas of the material, which carry the noise of the data.
-    pub replicas: usize,
-    /// Of the random numbers of the replicas.
-    pub seed: u64,
-}
-
-impl Default for Choices {
-    fn default() -> Self {
-        Self {
-            reference_temperature_k: None,
-            shift: ShiftChoice::Free,
-            vertical_shift: false,
-            branches: None,
-            replicas: 0,
-            seed: 1,
-        }
+block_with_defaults! {
+    /// What is made of dynamic data, and how.
+    pub struct Choices in "dynamic" {
+        /// Temperature of the master curve; left out: that of the middle isotherm.
+        reference_temperature_k: Option<f64> = None => "reference_temperature", Kind::Number(quantity(Temperature).above_zero());
+        /// How isotherms are shifted onto one curve: each individually (`free`, the default), by a law fitted to the data, not at all, or by
+        /// factors from a file.
+        shift: ShiftChoice = ShiftChoice::Free => "shift", ShiftChoice::KIND, chosen;
+        /// Whether they are also shifted vertically, along the moduli.
+        vertical_shift: bool = false => "vertical_shift", Kind::Flag;
+        /// Branches of the series: a number, or `auto` (the default): as many as the data resolve.
+        branches: Option<usize> = None => "branches", BRANCHES;
+        /// Number of replicas of the material for the uncertainty of the results due to the noise of the data; 50 determine it to about
+        /// 10 %.
+        replicas: usize = 0 => "replicas", Kind::Integer(0..=MOST_REPLICAS);
+        /// Seed of the random numbers for the replicas.
+        seed: u64 = 1 => "seed", Kind::Integer(0..=i64::MAX as usize);
     }
 }
 
