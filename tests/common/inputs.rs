@@ -38,41 +38,43 @@ fn refused<T>(result: Result<T, Diagnostics>) -> Option<T> {
         .ok()
 }
 
-/// A sweep file is refused, or means what its resolved form says.
-pub fn sweep_file(bytes: &[u8]) -> bool {
-    let Some(document) = refused(Document::from_bytes("fuzz.toml", bytes)) else {
-        return false;
-    };
-    let Some(plan) = refused(sweep_file::plan(&document)) else {
-        return false;
-    };
-    let text = resolved_text(&plan);
+/// A file of text is refused, or means what its resolved form says.
+fn resolves_to_itself<P>(
+    bytes: &[u8],
+    plan: impl Fn(&Document) -> Result<P, Diagnostics>,
+    resolved: impl Fn(&P) -> String,
+) -> Option<P> {
+    let document = refused(Document::from_bytes("fuzz.toml", bytes))?;
+    let accepted = refused(plan(&document))?;
+    let text = resolved(&accepted);
     let again = Document::parse("resolved.toml", &text).unwrap();
-    let again = sweep_file::plan(&again).ok().unwrap();
-    assert_eq!(resolved_text(&again), text);
-    // Physics that cannot be is refused before anything is solved. Large grids would only take time.
-    if plan.solver.engine == EngineKind::Axisymmetric && plan.conditions().len() < 50 {
-        let _ = Setup::new(plan).inspect_err(|why| assert!(!why.to_string().is_empty()));
+    assert_eq!(resolved(&plan(&again).ok().unwrap()), text);
+    Some(accepted)
+}
+
+/// A sweep file. Physics that cannot be is refused before anything is solved; large grids would only take time.
+pub fn sweep_file(bytes: &[u8]) -> bool {
+    let plan = resolves_to_itself(bytes, sweep_file::plan, resolved_text);
+    if let Some(plan) = &plan
+        && plan.solver.engine == EngineKind::Axisymmetric
+        && plan.conditions().len() < 50
+    {
+        let setup = Setup::new(plan.clone());
+        let _ = setup.inspect_err(|why| assert!(!why.to_string().is_empty()));
     }
-    true
+    plan.is_some()
 }
 
 /// The same of a file of one drive history.
 pub fn scenario_file(bytes: &[u8]) -> bool {
-    let Some(document) = refused(Document::from_bytes("fuzz.toml", bytes)) else {
-        return false;
-    };
-    let Some(plan) = refused(scenario_file::plan(&document)) else {
-        return false;
-    };
-    let text = scenario::resolved_text(&plan);
-    let again = Document::parse("resolved.toml", &text).unwrap();
-    let again = scenario_file::plan(&again).ok().unwrap();
-    assert_eq!(scenario::resolved_text(&again), text);
-    if plan.solver.engine == EngineKind::Axisymmetric {
-        let _ = Simulation::new(plan).inspect_err(|why| assert!(!why.to_string().is_empty()));
+    let plan = resolves_to_itself(bytes, scenario_file::plan, scenario::resolved_text);
+    if let Some(plan) = &plan
+        && plan.solver.engine == EngineKind::Axisymmetric
+    {
+        let simulation = Simulation::new(plan.clone());
+        let _ = simulation.inspect_err(|why| assert!(!why.to_string().is_empty()));
     }
-    true
+    plan.is_some()
 }
 
 /// A quantity is finite or refused.
@@ -126,11 +128,9 @@ pub fn dynamic_file(bytes: &[u8]) -> bool {
     if *first > 127 {
         let pairs = refused(dynamic::shift_factors_from_bytes("shift", content));
         let pairs = pairs.unwrap_or_default();
-        assert!(
-            pairs
-                .iter()
-                .all(|(kelvin, log)| *kelvin > 0.0 && kelvin.is_finite() && log.is_finite())
-        );
+        for (kelvin, log) in &pairs {
+            assert!(*kelvin > 0.0 && kelvin.is_finite() && log.is_finite());
+        }
         return !pairs.is_empty();
     }
     let format = usize::from(*first)
@@ -165,11 +165,8 @@ pub fn dynamic_file(bytes: &[u8]) -> bool {
 pub fn profile(bytes: &[u8]) -> bool {
     match field_file::profile("profile", bytes) {
         Ok(points) => {
-            assert!(
-                points
-                    .iter()
-                    .all(|(r, gap)| r.is_finite() && gap.is_finite())
-            );
+            let mut numbers = points.iter().flat_map(|(r, gap)| [r, gap]);
+            assert!(numbers.all(|number| number.is_finite()));
             true
         }
         Err(why) => {
@@ -252,14 +249,12 @@ impl Tables {
         fs::write(folder.join("table.csv"), bytes).unwrap();
         let name = folder.join("naming.toml").display().to_string();
         let document = Document::parse(&name, &table.naming()).unwrap();
-        let plan = scenario_file::plan(&document.in_folder(folder));
-        let Some(plan) = refused(plan) else {
+        let document = document.in_folder(folder);
+        let Some(plan) = refused(scenario_file::plan(&document)) else {
             return false;
         };
         let text = scenario::resolved_text(&plan);
-        let again = Document::parse("resolved.toml", &text).unwrap();
-        let again = scenario_file::plan(&again).ok().unwrap();
-        assert_eq!(scenario::resolved_text(&again), text);
+        assert!(scenario_file(text.as_bytes()), "{text}");
         true
     }
 }
@@ -346,29 +341,21 @@ pub struct Records {
 impl Records {
     pub fn new() -> Self {
         let folder = Folder::new("direct");
-        let record = folder
-            .setup
-            .run(&folder.case, &AtomicBool::new(false))
-            .unwrap();
+        let record = folder.setup.run(&folder.case, &AtomicBool::new(false));
+        let record = record.unwrap();
         assert!(record.result.is_some(), "{:?}", record.message);
         let saved = (folder.store.records()).insert(Purpose::Sweep, &folder.case, &record);
         saved.unwrap();
-        let segment = fs::read_dir(folder.path("records"))
-            .unwrap()
-            .next()
-            .unwrap();
-        let whole = fs::read(segment.unwrap().path()).unwrap();
+        let mut segments = fs::read_dir(folder.path("records")).unwrap();
+        let path = segments.next().unwrap().unwrap().path();
+        let whole = fs::read(&path).unwrap();
         let mut content = Vec::new();
         let meet = |met: log::Met<'_>| {
             if let log::Met::Record { content: of, .. } = met {
                 content = of.to_vec();
             }
         };
-        let path = fs::read_dir(folder.path("records"))
-            .unwrap()
-            .next()
-            .unwrap();
-        log::read(&path.unwrap().path(), 0, meet).unwrap();
+        log::read(&path, 0, meet).unwrap();
         let packed = content.len() - entry::encoded(&record, true).unwrap().len();
         Self {
             folder,
@@ -397,20 +384,14 @@ impl Records {
 
     fn is_told(&self, outcome: &Outcome) -> bool {
         let (plan, hash) = (self.folder.setup.plan(), self.folder.store.sweep_hash());
-        let branches = outcome.retardation_times_s().len();
-        let _ = quantities::sweep(
-            &outcome.records,
-            branches,
-            plan.figures.frequency_unit,
-            plan.axes.as_ref(),
-        );
+        let (branches, axes) = (outcome.retardation_times_s().len(), plan.axes.as_ref());
+        let unit = plan.figures.frequency_unit;
+        let _ = quantities::sweep(&outcome.records, branches, unit, axes);
         for result in outcome.records.iter().filter_map(|r| r.result.as_ref()) {
             let _ = table::samples(&result.cycle.samples);
             let _ = table::pressures(&result.cycle.pressures, plan.base.drive.control());
-            let line = WorkLine::of(
-                &result.cycle.surface_loss,
-                plan.base.contact.indenter.as_ref(),
-            );
+            let indenter = plan.base.contact.indenter.as_ref();
+            let line = WorkLine::of(&result.cycle.surface_loss, indenter);
             let _ = table::work(&line);
         }
         let _ = machine::sweep(plan, outcome, hash);
@@ -437,6 +418,15 @@ pub struct CheckpointFiles {
 /// Bytes by which a checkpoint says what it is and what it belongs to.
 const CHECKPOINT_HEAD: usize = 32;
 
+fn between_head_and_sum(checkpoint: &[u8]) -> Vec<u8> {
+    checkpoint[CHECKPOINT_HEAD..checkpoint.len() - 32].to_vec()
+}
+
+fn with_sum(head: &[u8], content: &[u8]) -> Vec<u8> {
+    let bytes = [head, content].concat();
+    [&bytes[..], &Sha256::digest(&bytes)].concat()
+}
+
 impl CheckpointFiles {
     /// `method` is "direct" or "march".
     pub fn new(method: &str) -> Self {
@@ -446,12 +436,12 @@ impl CheckpointFiles {
             heads: Vec::new(),
         };
         files.run();
-        files.heads = files
-            .wholes()
-            .into_iter()
-            .map(|(path, bytes)| (path, bytes[..CHECKPOINT_HEAD].to_vec()))
-            .collect();
+        files.heads = files.wholes();
         assert!(!files.heads.is_empty(), "no checkpoint was written");
+        files
+            .heads
+            .iter_mut()
+            .for_each(|(_, bytes)| bytes.truncate(CHECKPOINT_HEAD));
         files
     }
 
@@ -460,23 +450,18 @@ impl CheckpointFiles {
             setup, store, case, ..
         } = &self.folder;
         let checkpoints = Checkpoints::of(store, Purpose::Sweep, case, Duration::ZERO);
-        setup
-            .run_from(&checkpoints, case, &AtomicBool::new(false))
-            .is_some()
+        let record = setup.run_from(&checkpoints, case, &AtomicBool::new(false));
+        record.is_some()
     }
 
     /// The checkpoints that lie there now.
     fn wholes(&self) -> Vec<(PathBuf, Vec<u8>)> {
         let folder = self.folder.path("checkpoints/0000");
-        let mut files: Vec<_> = fs::read_dir(folder)
-            .unwrap()
-            .map(|e| e.unwrap().path())
-            .collect();
+        let paths = fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());
+        let files = paths.map(|path| (path.clone(), fs::read(path).unwrap()));
+        let mut files: Vec<_> = files.collect();
         files.sort();
         files
-            .into_iter()
-            .map(|path| (path.clone(), fs::read(&path).unwrap()))
-            .collect()
     }
 
     /// How many files there are, and what each holds between its head and its checksum.
@@ -484,7 +469,7 @@ impl CheckpointFiles {
         self.run();
         let wholes = self.wholes().into_iter();
         wholes
-            .map(|(_, bytes)| bytes[CHECKPOINT_HEAD..bytes.len() - 32].to_vec())
+            .map(|(_, bytes)| between_head_and_sum(&bytes))
             .collect()
     }
 
@@ -492,10 +477,7 @@ impl CheckpointFiles {
     pub fn check(&self, file: usize, content: &[u8]) -> bool {
         let (path, head) = &self.heads[file % self.heads.len()];
         self.remove_others(path);
-        let mut bytes = [head, content].concat();
-        let hash = Sha256::digest(&bytes);
-        bytes.extend_from_slice(&hash);
-        fs::write(path, bytes).unwrap();
+        fs::write(path, with_sum(head, content)).unwrap();
         self.run()
     }
 
@@ -576,18 +558,14 @@ impl Histories {
     pub fn content(&self, which: usize) -> Vec<u8> {
         let _ = fs::remove_file(self.path());
         self.run(which, 4);
-        let bytes = fs::read(self.path()).unwrap();
-        bytes[CHECKPOINT_HEAD..bytes.len() - 32].to_vec()
+        between_head_and_sum(&fs::read(self.path()).unwrap())
     }
 
     /// A history goes on from a checkpoint of any content, or from its beginning, and ends. The last [`Histories::content`]
     /// must have been of the same one.
     pub fn check(&self, which: usize, content: &[u8]) -> bool {
-        let head = fs::read(self.path()).unwrap();
-        let mut bytes = [&head[..CHECKPOINT_HEAD], content].concat();
-        let hash = Sha256::digest(&bytes);
-        bytes.extend_from_slice(&hash);
-        fs::write(self.path(), bytes).unwrap();
+        let head = &fs::read(self.path()).unwrap()[..CHECKPOINT_HEAD];
+        fs::write(self.path(), with_sum(head, content)).unwrap();
         self.run(which, usize::MAX)
     }
 }

@@ -2,21 +2,25 @@
 
 #![allow(dead_code)] // Each test file uses its own part.
 
+use crate::program::files;
+use crate::random::Random;
 use crate::segments;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command as Process, Stdio};
 use std::time::{Duration, Instant, SystemTime};
 
 /// The files that must not depend on how a run came to its end.
-pub fn results(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
-    let mut files = every_file(folder);
-    files.retain(|(path, _)| {
-        let name = path.file_name().unwrap().to_str().unwrap();
+pub fn results(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut files = files(folder);
+    files.retain(|path, _| {
+        let name = path.rsplit('/').next().unwrap();
         // The lock file lists what was written last, where other processes were at work at the end.
-        !name.starts_with("run")
-            && !path.starts_with("records")
-            && !name.starts_with(".contact-dma.")
+        let is_own = ["run", ".contact-dma."]
+            .iter()
+            .any(|own| name.starts_with(own));
+        !is_own && !path.starts_with("records/")
     });
     // Records lie in segments in the order in which they were finished, and some of them twice.
     let mut records = segments::read(folder);
@@ -24,38 +28,19 @@ pub fn results(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let records = records.into_iter().enumerate();
     files.extend(records.map(|(k, stored)| {
         let heading = format!("{:?}", stored.heading).into_bytes();
-        let name = PathBuf::from(format!("records, number {k}"));
+        let name = format!("records, number {k}");
         (name, [heading, stored.record].concat())
     }));
     files
 }
 
-fn every_file(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
-    let mut files = Vec::new();
-    let mut folders = vec![folder.to_path_buf()];
-    while let Some(next) = folders.pop() {
-        for entry in fs::read_dir(next).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else {
-                let name = path.strip_prefix(folder).unwrap().to_path_buf();
-                files.push((name, fs::read(&path).unwrap()));
-            }
-        }
-    }
-    files.sort();
-    files
-}
-
+#[track_caller]
 pub fn assert_same(found: &Path, expected: &Path) {
     let (found, expected) = (results(found), results(expected));
-    let names = |files: &[(PathBuf, Vec<u8>)]| -> Vec<PathBuf> {
-        files.iter().map(|(name, _)| name.clone()).collect()
-    };
+    let names = |files: &BTreeMap<String, _>| files.keys().cloned().collect::<Vec<_>>();
     assert_eq!(names(&found), names(&expected));
-    for ((name, a), (_, b)) in found.iter().zip(&expected) {
-        assert!(a == b, "{} differs", name.display());
+    for (name, bytes) in &found {
+        assert!(*bytes == expected[name], "{name} differs");
     }
 }
 
@@ -95,16 +80,27 @@ pub fn wait_for(what: &str, ready: impl Fn() -> bool) {
     }
 }
 
-/// Numbers that look random and are the same in every run (S. Vigna's SplitMix64).
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+/// Kills what `start` begins at any moment of a run, so many times in all: several kills on one folder, until a run comes to its end
+/// before its kill; then `end` looks at the folder and clears it.
+pub fn kill_at_any_moment(span: Duration, seed: u64, start: impl Fn() -> Child, end: impl Fn()) {
+    let kills = std::env::var("CONTACT_DMA_KILLS").map_or(10, |text| text.parse().unwrap());
+    let (mut random, mut killed) = (Random(seed), 0);
+    while killed < kills {
+        loop {
+            let mut child = start();
+            std::thread::sleep(span.mul_f64(random.unit()));
+            let was_running = child.try_wait().unwrap().is_none();
+            if was_running {
+                signal(&child, "-KILL");
+                killed += 1;
+            }
+            assert!(was_running || child.wait().unwrap().success());
+            child.wait().unwrap();
+            if !was_running || killed >= kills {
+                break;
+            }
+        }
+        end();
     }
 }
 
@@ -120,7 +116,7 @@ pub fn set_clock_back_and_forth(folder: &Path) {
     const CENTURY: Duration = Duration::from_secs(100 * 365 * 86_400);
     let early = SystemTime::UNIX_EPOCH - CENTURY / 2;
     let late = SystemTime::UNIX_EPOCH + 2 * CENTURY;
-    for (k, (name, _)) in every_file(folder).into_iter().enumerate() {
+    for (k, name) in files(folder).into_keys().enumerate() {
         let time = if k % 2 == 0 { late } else { early };
         let file = fs::File::options().write(true).open(folder.join(name));
         file.unwrap().set_modified(time).unwrap();

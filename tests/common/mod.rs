@@ -1,105 +1,58 @@
-//! What the integration tests share: engines for an indenter on a domain, materials, and the order of convergence.
+//! What the integration tests share: materials, indenters, engines, plans of sweeps and what their cases come to.
 
 #![allow(dead_code)] // Each test file uses its own part.
 
+pub mod bars;
+pub mod engines;
+pub mod random;
 pub mod solids;
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use contact_dma::contact::axisymmetric::{Axisymmetric, Edge};
-use contact_dma::contact::half_space::convolution::Convolution;
-use contact_dma::contact::half_space::grid::Grid;
-use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
-use contact_dma::contact::{ContactError, Engine, Instant, Prescribed, Solution};
 use contact_dma::drive::HarmonicDrive;
-use contact_dma::engine::{EngineKind, SolverPlan};
-use contact_dma::indenter::{Indenter, Sphere};
-use contact_dma::material::{Creep, Material, ModulusKind, classical, library};
+use contact_dma::engine::EngineKind;
+use contact_dma::indenter::{Cone, FlatPunch, Indenter, Sphere};
+use contact_dma::material::{
+    Compressibility, Creep, CreepBranch, Material, ModulusKind, Relaxation, RelaxationBranch,
+    classical, library,
+};
+use contact_dma::simulation::{Simulation, SimulationEnd, SimulationOutcome, scenario};
+use contact_dma::sweep::Sweep;
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::plan::{Case, CyclePlan, SweepPlan};
-use contact_dma::sweep::record::CaseRecord;
+use contact_dma::sweep::plan::{Case, SweepPlan};
+use contact_dma::sweep::record::{CaseRecord, CaseResult, Status};
 
-/// The axisymmetric engine for this indenter: so many springs over the half width.
-pub fn springs(indenter: &dyn Indenter, half_width_m: f64, springs: usize) -> Axisymmetric {
-    let body = indenter.axisymmetric().unwrap();
-    let width_m = half_width_m / springs as f64;
-    let gaps = (0..springs)
-        .map(|i| body.transformed_gap_m((i as f64 + 0.5) * width_m))
-        .collect();
-    let edge = match body.contact_limit_m() {
-        Some(_) => Edge::Rim,
-        None => Edge::Open,
-    };
-    Axisymmetric::new(width_m, gaps, edge, body.has_bounded_pressure())
+// Materials.
+
+/// A series of relaxation: the modulus at rest, and modulus (Pa) and time (s) of each branch.
+pub fn series(equilibrium_pa: f64, branches: &[(f64, f64)]) -> Relaxation {
+    let branch = |&(modulus_pa, time_s)| RelaxationBranch { modulus_pa, time_s };
+    Relaxation::new(equilibrium_pa, branches.iter().map(branch).collect()).unwrap()
 }
 
-/// The half-space engine for this indenter on a square of so many cells per side.
-pub fn half_space(indenter: &dyn Indenter, half_width_m: f64, cells: usize) -> HalfSpace {
-    half_space_with(indenter, half_width_m, cells, SolverSettings::default())
+/// A solid of these Young's moduli.
+pub fn solid(
+    equilibrium_pa: f64,
+    branches: &[(f64, f64)],
+    known: impl Into<Compressibility>,
+) -> Material {
+    material_of(series(equilibrium_pa, branches), known)
 }
 
-/// The half-space engine with other than default settings.
-pub fn half_space_with(
-    indenter: &dyn Indenter,
-    half_width_m: f64,
-    cells: usize,
-    settings: SolverSettings,
-) -> HalfSpace {
-    let grid = grid(half_width_m, cells);
-    let gap_m = gap_field(indenter, &grid);
-    let operator = Arc::new(Convolution::new(grid).unwrap());
-    let bounded = indenter
-        .axisymmetric()
-        .is_none_or(|body| body.has_bounded_pressure());
-    HalfSpace::new(operator, gap_m, bounded, settings)
+/// The same of a series.
+pub fn material_of(series: Relaxation, known: impl Into<Compressibility>) -> Material {
+    Material::from_relaxation(series, ModulusKind::Longitudinal, known).unwrap()
 }
 
-/// The grid on which [`half_space`] works.
-pub fn grid(half_width_m: f64, cells: usize) -> Grid {
-    Grid::square(cells, 2.0 * half_width_m / cells as f64).unwrap()
-}
-
-fn gap_field(indenter: &dyn Indenter, grid: &Grid) -> Vec<f64> {
-    (0..grid.cells())
-        .map(|cell| {
-            let (x_m, y_m) = grid.center(cell);
-            indenter.gap_m(x_m, y_m)
-        })
-        .collect()
-}
-
-/// Distance of a cell's centre from the axis (m).
-pub fn distance_m(grid: &Grid, cell: usize) -> f64 {
-    let (x_m, y_m) = grid.center(cell);
-    x_m.hypot(y_m)
-}
-
-/// One instant on an undisturbed body, without a guess: the solution and the nodal pressure.
-pub fn first_touch(
-    engine: &mut dyn Engine,
-    compliance_per_pa: f64,
-    prescribed: Prescribed,
-) -> Result<(Solution, Vec<f64>), ContactError> {
-    let mut pressure = vec![0.0; engine.nodes()];
-    let solution = solve_from(engine, compliance_per_pa, prescribed, &mut pressure)?;
-    Ok((solution, pressure))
-}
-
-/// One instant on an undisturbed body, from the guess in `pressure`.
-pub fn solve_from(
-    engine: &mut dyn Engine,
-    compliance_per_pa: f64,
-    prescribed: Prescribed,
-    pressure: &mut [f64],
-) -> Result<Solution, ContactError> {
-    let history = vec![0.0; engine.nodes()];
-    let instant = Instant {
-        history: &history,
+/// A series of creep: the compliance at once, compliance (1/Pa) and time (s) of each branch, the viscosity (Pa s) of a fluid.
+pub fn creep(at_once_per_pa: f64, branches: &[(f64, f64)], viscosity_pa_s: Option<f64>) -> Creep {
+    let branch = |&(compliance_per_pa, time_s)| CreepBranch {
         compliance_per_pa,
-        prescribed,
+        time_s,
     };
-    engine.solve(&instant, pressure)
+    let branches = branches.iter().map(branch).collect();
+    Creep::new(at_once_per_pa, branches, viscosity_pa_s).unwrap()
 }
 
 /// PMMA, from the library.
@@ -130,7 +83,23 @@ pub fn maxwell() -> Creep {
     material.contact_compliance().unwrap()
 }
 
-/// A sweep of this contact without a hold, with everything else at its default.
+// Indenters.
+
+pub fn sphere(radius_m: f64) -> Arc<dyn Indenter> {
+    Arc::new(Sphere::new(radius_m).unwrap())
+}
+
+pub fn cone(half_angle_rad: f64) -> Arc<dyn Indenter> {
+    Arc::new(Cone::new(half_angle_rad).unwrap())
+}
+
+pub fn punch(radius_m: f64) -> Arc<dyn Indenter> {
+    Arc::new(FlatPunch::new(radius_m).unwrap())
+}
+
+// Sweeps and their cases.
+
+/// A sweep of this contact without a hold, with everything else at its default. Tests that look at error bars ask for them.
 pub fn sweep_plan(
     material: Material,
     indenter: Arc<dyn Indenter>,
@@ -140,10 +109,33 @@ pub fn sweep_plan(
     let drive = HarmonicDrive::load(mean_n, amplitude_n).unwrap();
     let mut plan = SweepPlan::new(material, indenter, drive);
     plan.title = "integration test".into();
-    plan.solver = SolverPlan::default();
     plan.angular_frequencies_rad_per_s = vec![1.0];
-    // Tests that look at error bars ask for them.
     plan.cycle.error_bars = false;
+    plan
+}
+
+/// PMMA under 10 N and this amplitude.
+pub fn pmma_plan(indenter: Arc<dyn Indenter>, amplitude_n: f64) -> SweepPlan {
+    sweep_plan(pmma_material(), indenter, 10.0, amplitude_n)
+}
+
+/// The same sweep on so many cells and in so many steps, without error bars.
+pub fn on_cells(plan: SweepPlan, cells: usize, steps: usize) -> SweepPlan {
+    with(plan, |plan| {
+        plan.cycle = contact_dma::sweep::plan::CyclePlan::default();
+        (plan.cycle.steps, plan.cycle.error_bars) = (steps, false);
+        plan.solver = contact_dma::engine::SolverPlan::default();
+        (plan.solver.engine, plan.solver.cells) = (EngineKind::HalfSpace, cells);
+    })
+}
+
+pub fn with_bars(plan: SweepPlan) -> SweepPlan {
+    with(plan, |plan| plan.cycle.error_bars = true)
+}
+
+/// A plan with a change.
+pub fn with<P>(mut plan: P, change: impl FnOnce(&mut P)) -> P {
+    change(&mut plan);
     plan
 }
 
@@ -159,6 +151,53 @@ pub fn run_case(plan: &SweepPlan, angular_frequency_rad_per_s: f64) -> CaseRecor
     setup.run(&case, &interrupt).unwrap()
 }
 
+/// The result of a case that has one.
+#[track_caller]
+pub fn result(plan: &SweepPlan, angular_frequency_rad_per_s: f64) -> CaseResult {
+    result_of(run_case(plan, angular_frequency_rad_per_s))
+}
+
+/// The same of a sweep from values, whose case must converge.
+#[track_caller]
+pub fn solved(sweep: Sweep, angular_frequency_rad_per_s: f64) -> CaseResult {
+    let hz = angular_frequency_rad_per_s / std::f64::consts::TAU;
+    let record = sweep.case_at_hz(hz).unwrap();
+    assert_eq!(record.status, Status::Converged, "{:?}", record.message);
+    record.result.unwrap()
+}
+
+#[track_caller]
+pub fn result_of(record: CaseRecord) -> CaseResult {
+    match record.result {
+        Some(result) => result,
+        None => panic!("{:?}: {:?}", record.status, record.message),
+    }
+}
+
+/// The energy loss (J) of a case.
+#[track_caller]
+pub fn loss_j(plan: &SweepPlan, angular_frequency_rad_per_s: f64) -> f64 {
+    let result = result(plan, angular_frequency_rad_per_s);
+    result.analysis.energy_loss_j
+}
+
+// Histories.
+
+/// A history to its end.
+#[track_caller]
+pub fn simulated(plan: scenario::ScenarioPlan) -> SimulationOutcome {
+    followed(&Simulation::new(plan).unwrap())
+}
+
+#[track_caller]
+pub fn followed(simulation: &Simulation) -> SimulationOutcome {
+    let outcome = simulation.run(&AtomicBool::new(false), &|_, _| {});
+    assert_eq!(outcome.ended, SimulationEnd::Done);
+    outcome
+}
+
+// Numbers.
+
 /// Order p of errors that fall like n^-p: the slope of a straight line through (ln n, ln error).
 pub fn observed_order(points: &[usize], errors: &[f64]) -> f64 {
     let logarithms = points.iter().zip(errors);
@@ -168,17 +207,24 @@ pub fn observed_order(points: &[usize], errors: &[f64]) -> f64 {
     let count = logarithms.len() as f64;
     let mean_x = logarithms.iter().map(|l| l.0).sum::<f64>() / count;
     let mean_y = logarithms.iter().map(|l| l.1).sum::<f64>() / count;
-    let covariance: f64 = logarithms
-        .iter()
-        .map(|l| (l.0 - mean_x) * (l.1 - mean_y))
-        .sum();
-    let variance: f64 = logarithms.iter().map(|l| (l.0 - mean_x).powi(2)).sum();
-    -covariance / variance
+    let products = logarithms.iter().map(|l| (l.0 - mean_x) * (l.1 - mean_y));
+    let squares = logarithms.iter().map(|l| (l.0 - mean_x).powi(2));
+    -products.sum::<f64>() / squares.sum::<f64>()
 }
 
 /// Relative difference from an expected value.
 pub fn relative(value: f64, expected: f64) -> f64 {
     value / expected - 1.0
+}
+
+/// The largest of some numbers, and zero.
+pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, f64::max)
+}
+
+/// The largest difference of numbers and others.
+pub fn largest_difference(one: &[f64], other: &[f64]) -> f64 {
+    largest(one.iter().zip(other).map(|(a, b)| (a - b).abs()))
 }
 
 /// Root mean square.
@@ -191,36 +237,16 @@ pub fn root_mean_square(values: impl IntoIterator<Item = f64>) -> f64 {
     (sum / count).sqrt()
 }
 
-/// The same sweep on so many cells and in so many steps, without error bars.
-pub fn on_cells(mut plan: SweepPlan, cells: usize, steps: usize) -> SweepPlan {
-    plan.cycle = CyclePlan {
-        steps,
-        error_bars: false,
-        ..CyclePlan::default()
-    };
-    plan.solver = SolverPlan {
-        engine: EngineKind::HalfSpace,
-        cells,
-        ..SolverPlan::default()
-    };
-    plan
+/// So many numbers from one to another, as far apart in their logarithms.
+pub fn log_spaced(from: f64, to: f64, count: usize) -> Vec<f64> {
+    let part = |k: usize| k as f64 / (count - 1) as f64;
+    (0..count)
+        .map(|k| from * (to / from).powf(part(k)))
+        .collect()
 }
 
 /// A whole number that whoever runs the tests asks for, or another.
 pub fn from_environment(name: &str, otherwise: u64) -> u64 {
     let asked = std::env::var(name).ok();
     asked.map_or(otherwise, |text| text.parse().expect("a whole number"))
-}
-
-/// Uniform between 0 and 1, of D. E. Knuth's linear congruential generator (MMIX).
-pub fn uniform(state: &mut u64) -> f64 {
-    *state = state
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1_442_695_040_888_963_407);
-    (*state >> 11) as f64 / (1_u64 << 53) as f64
-}
-
-/// A sphere of 10 mm.
-pub fn sphere_of_10_mm() -> Arc<dyn Indenter> {
-    Arc::new(Sphere::new(0.01).unwrap())
 }

@@ -13,25 +13,17 @@ pub fn between<'a>(text: &'a str, from: &str, to: &str) -> &'a str {
 }
 
 pub fn data(page: &str) -> Value {
-    let json = between(
-        page,
-        "<script type=\"application/json\" id=\"data\">",
-        "</script>",
-    );
+    let from = "<script type=\"application/json\" id=\"data\">";
+    let json = between(page, from, "</script>");
     serde_json::from_str(json).unwrap()
 }
 
 /// Undoes the five escapes.
 pub fn unescaped(text: &str) -> String {
-    [
-        ("&lt;", "<"),
-        ("&gt;", ">"),
-        ("&quot;", "\""),
-        ("&#39;", "'"),
-        ("&amp;", "&"),
-    ]
-    .iter()
-    .fold(text.to_owned(), |text, (from, to)| text.replace(from, to))
+    let escapes = "&lt; < &gt; > &quot; \" &#39; ' &amp; &";
+    let escapes: Vec<&str> = escapes.split(' ').collect();
+    let undone = |text: String, pair: &[&str]| text.replace(pair[0], pair[1]);
+    escapes.chunks(2).fold(text.to_owned(), undone)
 }
 
 /// Names of the elements that are opened and not closed in order, by a reader that knows tags and nothing else.
@@ -46,11 +38,10 @@ pub fn nesting_problems(page: &str) -> Vec<String> {
         if tag.starts_with('!') {
             continue;
         }
-        let name: String = tag
+        let name = tag
             .trim_start_matches('/')
-            .chars()
-            .take_while(|c| c.is_alphanumeric())
-            .collect();
+            .split(|c: char| !c.is_alphanumeric());
+        let name = name.into_iter().next().unwrap().to_owned();
         if tag.starts_with('/') {
             if open.pop() != Some(name.clone()) {
                 problems.push(format!("</{name}> closes something else"));
@@ -85,11 +76,8 @@ pub fn assert_stands_alone(page: &str) {
         }
     }
     assert_eq!(nesting_problems(page), Vec::<String>::new());
-    let ids: Vec<&str> = page
-        .split(" id=\"")
-        .skip(1)
-        .map(|rest| rest.split('"').next().unwrap())
-        .collect();
+    let ids = page.split(" id=\"").skip(1);
+    let ids: Vec<&str> = ids.map(|rest| rest.split('"').next().unwrap()).collect();
     let distinct: BTreeSet<&str> = ids.iter().copied().collect();
     assert_eq!(ids.len(), distinct.len(), "two elements share a name");
 }

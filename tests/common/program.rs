@@ -2,6 +2,7 @@
 
 #![allow(dead_code)] // Each test file uses its own part.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -41,6 +42,31 @@ mean = "10 N"
 amplitude = "5 N"
 "#;
     format!("{question}{rest}")
+}
+
+/// Every file below a folder with its bytes.
+pub fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let file = |path: PathBuf| {
+        let name = path.strip_prefix(folder).unwrap().to_str().unwrap();
+        (name.to_owned(), fs::read(&path).unwrap())
+    };
+    below(folder, "").into_iter().map(file).collect()
+}
+
+/// The paths of all files below a folder that end like this, or in any way.
+pub fn below(folder: &Path, extension: &str) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap();
+    let paths = entries.map(|entry| entry.unwrap().path());
+    let found = paths.flat_map(|path| match path.is_dir() {
+        true => below(&path, extension),
+        false => vec![path],
+    });
+    let is_asked = |path: &PathBuf| path.extension().is_some_and(|own| own == extension);
+    let mut found: Vec<_> = found
+        .filter(|path| extension.is_empty() || is_asked(path))
+        .collect();
+    found.sort();
+    found
 }
 
 /// The folder of a test, in which the program runs.
@@ -83,6 +109,11 @@ impl Place {
 
     pub fn json(&self, name: &str) -> Value {
         serde_json::from_slice(&self.bytes(name)).unwrap()
+    }
+
+    /// Every file below a folder with its bytes.
+    pub fn files(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
+        files(&self.path(folder))
     }
 
     pub fn table(&self, name: &str) -> Table {
@@ -133,6 +164,26 @@ impl Place {
         self.run(line).ended(code).stderr
     }
 
+    /// All of these are there.
+    #[track_caller]
+    pub fn has_all(&self, folder: &str, names: &str) {
+        for name in names.split_whitespace() {
+            assert!(self.has(&format!("{folder}/{name}")), "{folder}/{name}");
+        }
+    }
+
+    /// The same file in several folders, byte for byte.
+    #[track_caller]
+    pub fn are_same(&self, folders: &[&str], name: &str) {
+        let first = self.bytes(&format!("{}/{name}", folders[0]));
+        for folder in &folders[1..] {
+            assert!(
+                self.bytes(&format!("{folder}/{name}")) == first,
+                "{folder}/{name}"
+            );
+        }
+    }
+
     /// Runs a command that refuses its input: what it says on standard error, on one line.
     #[track_caller]
     pub fn refused(&self, line: &str) -> String {
@@ -178,10 +229,15 @@ impl Run {
     /// All of this stands on standard output, wherever lines end there.
     #[track_caller]
     pub fn says(self, parts: &[&str]) -> Self {
-        let said = words(&self.stdout);
-        for part in parts {
-            assert!(said.contains(part), "{part} is not in:\n{}", self.stdout);
-        }
+        says(&words(&self.stdout), parts);
+        self
+    }
+
+    /// No line of standard output is longer.
+    #[track_caller]
+    pub fn fits_eighty(self) -> Self {
+        let is_narrow = |line: &str| line.chars().count() <= 80 || line.contains("Results in");
+        assert!(self.stdout.lines().all(is_narrow), "{}", self.stdout);
         self
     }
 
@@ -198,6 +254,14 @@ pub fn npy(bytes: &[u8]) -> Vec<f64> {
     doubles
         .map(|double| f64::from_le_bytes(double.try_into().unwrap()))
         .collect()
+}
+
+/// All of this stands in a text.
+#[track_caller]
+pub fn says(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "{part} is not in:\n{text}");
+    }
 }
 
 /// A text on one line.
@@ -246,6 +310,12 @@ impl Table {
     pub fn found(&self, column: &str) -> Vec<Option<f64>> {
         let cells = self.cells(column).into_iter();
         cells.map(|cell| cell.parse().ok()).collect()
+    }
+
+    /// The numbers of a row in these columns.
+    #[track_caller]
+    pub fn row<const N: usize>(&self, row: usize, columns: [&str; N]) -> [f64; N] {
+        columns.map(|column| self.number(row, column))
     }
 
     #[track_caller]

@@ -92,8 +92,6 @@ pub fn one(out: &Path) -> PathBuf {
 
 /// How many cases of the sweep have records.
 pub fn count(out: &Path) -> usize {
-    read(out)
-        .iter()
-        .filter(|stored| stored.is_of_sweep())
-        .count()
+    let records = read(out);
+    records.iter().filter(|stored| stored.is_of_sweep()).count()
 }

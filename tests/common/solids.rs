@@ -2,40 +2,11 @@
 
 use std::sync::Arc;
 
-use contact_dma::indenter::{Cone, FlatPunch, Indenter, Sphere};
-use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
+use contact_dma::indenter::Indenter;
+use contact_dma::material::Material;
 
-/// SplitMix64 (G. L. Steele, D. Lea and C. H. Flood, OOPSLA 2014): the same numbers on every machine.
-pub struct Random(pub u64);
-
-impl Random {
-    /// Uniform between 0 and 1.
-    pub fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    pub fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    pub fn power_of_ten(&mut self, low: f64, high: f64) -> f64 {
-        10_f64.powf(self.between(low, high))
-    }
-
-    /// Mean zero, variance one: the sum of twelve uniform deviates, whose tails end at six.
-    pub fn normal(&mut self) -> f64 {
-        (0..12).map(|_| self.unit()).sum::<f64>() - 6.0
-    }
-
-    /// A whole number from `low` to `high`.
-    pub fn count(&mut self, low: usize, high: usize) -> usize {
-        low + (self.unit() * (high - low + 1) as f64) as usize
-    }
-}
+use super::random::Random;
+use super::{cone, material_of, punch, series, sphere};
 
 /// A solid through its glass transition: 1 to 12 branches over up to 12 decades, modulus ratio 1.6 to 10,000.
 pub fn solid(random: &mut Random) -> Material {
@@ -50,37 +21,42 @@ pub fn solid_of_ratio(random: &mut Random, decades_of_ratio: f64) -> Material {
     let first = random.between(-6.0, 2.0);
     let weights: Vec<f64> = (0..count).map(|_| random.power_of_ten(-1.5, 0.0)).collect();
     let sum: f64 = weights.iter().sum();
-    let branches = weights
-        .iter()
-        .map(|weight| RelaxationBranch {
-            modulus_pa: 1e6 * (ratio - 1.0) * weight / sum,
-            time_s: 10_f64.powf(first + decades * random.unit()),
-        })
+    let branches = weights.iter().map(|weight| {
+        let time_s = 10_f64.powf(first + decades * random.unit());
+        (1e6 * (ratio - 1.0) * weight / sum, time_s)
+    });
+    let branches: Vec<_> = branches.collect();
+    material_of(series(1e6, &branches), 0.45)
+}
+
+/// So many branches of as much, `decades` apart but for a part of a decade, whose moduli add up to `ratio` times the modulus at rest.
+pub fn spread_solid(
+    random: &mut Random,
+    count: usize,
+    (equilibrium_pa, ratio): (f64, f64),
+    (decades, part): (f64, f64),
+) -> Material {
+    let modulus_pa = equilibrium_pa * ratio / count as f64;
+    let time = |i: usize, random: &mut Random| decades * (i as f64 + random.between(-part, part));
+    let branches: Vec<_> = (0..count)
+        .map(|i| (modulus_pa, 10_f64.powf(time(i, random))))
         .collect();
-    let relaxation = Relaxation::new(1e6, branches).unwrap();
-    Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.45).unwrap()
+    material_of(series(equilibrium_pa, &branches), 0.4)
 }
 
 /// Nine angular frequencies about the spectrum of a solid, from a tenth of its slowest retardation to ten times its fastest
 /// relaxation rate.
 pub fn frequencies(material: &Material) -> Vec<f64> {
     let slowest = material.creep().branches().last().unwrap().time_s;
-    let relaxation = material.relaxation().unwrap();
-    let fastest = relaxation
-        .branches()
-        .iter()
-        .map(|b| b.time_s)
-        .fold(f64::INFINITY, f64::min);
-    let (low, high) = ((0.1 / slowest).ln(), (10.0 / fastest).ln());
-    (0..9)
-        .map(|k| (low + (high - low) * f64::from(k) / 8.0).exp())
-        .collect()
+    let times = material.relaxation().unwrap().branches().iter();
+    let fastest = times.map(|b| b.time_s).fold(f64::INFINITY, f64::min);
+    super::log_spaced(0.1 / slowest, 10.0 / fastest, 9)
 }
 
 pub fn shape(random: &mut Random) -> Arc<dyn Indenter> {
     match random.count(0, 2) {
-        0 => Arc::new(Sphere::new(0.01).unwrap()),
-        1 => Arc::new(Cone::new(1.2).unwrap()),
-        _ => Arc::new(FlatPunch::new(1e-3).unwrap()),
+        0 => sphere(0.01),
+        1 => cone(1.2),
+        _ => punch(1e-3),
     }
 }

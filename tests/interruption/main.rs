@@ -4,6 +4,8 @@
 mod kills;
 #[path = "../common/program.rs"]
 mod program;
+#[path = "../common/random.rs"]
+mod random;
 #[path = "../common/segments.rs"]
 mod segments;
 

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::{Child, Command as Process, Output, Stdio};
 
 use crate::kills::{assert_same, signal, wait_for};
-use crate::program::{Place, pmma_sweep};
+use crate::program::{Place, pmma_sweep, says};
 use crate::segments;
 use contact_dma::sweep::plan::resolved::hash;
 
@@ -34,11 +34,8 @@ const MANY: [&str; 4] = [
 ];
 
 const SCENARIO: &str = r#"title = "a step"
-[material]
-library = "pmma"
-[indenter]
-shape = "sphere"
-radius = "10 mm"
+material.library = "pmma"
+indenter = { shape = "sphere", radius = "10 mm" }
 [drive]
 segments = [{ kind = "step", to = "10 N", duration = "10 s" }]
 [time]
@@ -83,11 +80,8 @@ fn hashes(out: &Path) -> (BTreeSet<String>, usize) {
     let plan = fs::read_to_string(out.join("resolved.toml")).unwrap();
     let mut hashes = BTreeSet::from([hash(&plan)]);
     let records = segments::read(out);
-    hashes.extend(
-        records
-            .iter()
-            .map(|stored| stored.heading.sweep_hash.clone()),
-    );
+    let of_records = records.iter().map(|stored| &stored.heading.sweep_hash);
+    hashes.extend(of_records.cloned());
     if let Ok(summary) = fs::read(out.join("summary.json")) {
         let summary: serde_json::Value = serde_json::from_slice(&summary).unwrap();
         let named = summary.get("sweep_hash").or(summary.get("scenario_hash"));
@@ -204,19 +198,12 @@ fn what_runs_is_neither_replaced_nor_joined_by_another_and_loses_nothing() {
         format!("merge '{full}' --force --out '{full}'"),
     ] {
         let told = place.ends(&line, 2);
-        assert!(told.contains("/out is in use"), "{told}");
-        assert!(told.contains("another folder with --out"), "{told}");
+        says(&told, &["/out is in use", "another folder with --out"]);
         let is_named = told.contains("PMMA under a sphere");
         // Unforced, what differs is told.
         let differs = told.contains("+ angular_frequency") || told.contains("-     \"0.001");
-        assert!(
-            if line.contains("--force") {
-                is_named
-            } else {
-                differs
-            },
-            "{told}"
-        );
+        let is_forced = line.contains("--force");
+        assert!(if is_forced { is_named } else { differs }, "{told}");
     }
     assert_eq!(hashes(&out), before);
     signal(&running, "-CONT");
@@ -234,15 +221,9 @@ fn a_run_that_is_replaced_where_locks_reach_nobody_stops_and_leaves_the_folder_t
     let out = place.path("out");
     // One case that takes seconds: it is stopped while it computes, not while it writes its results. A checkpoint is due at every
     // moment, so that one would be written into the folder that is no longer its own.
-    let set = [
-        "sweep.angular_frequency=[20]",
-        "cycle.method=\"march\"",
-        "cycle.steps=200",
-        "cycle.tolerance=1e-9",
-        "cycle.max_cycles=100000",
-        "solver.springs=100",
-    ];
-    let set = set.iter().flat_map(|assignment| ["--set", assignment]);
+    let set = "sweep.angular_frequency=[20] cycle.method=\"march\" cycle.steps=200 cycle.tolerance=1e-9 cycle.max_cycles=100000 \
+               solver.springs=100";
+    let set = set.split(' ').flat_map(|assignment| ["--set", assignment]);
     let long = ["sweep", &file, "--checkpoint-every", "0"];
     let long: Vec<&str> = long.into_iter().chain(set).collect();
     let replaced = start(&long, &out);
@@ -261,7 +242,7 @@ fn a_run_that_is_replaced_where_locks_reach_nobody_stops_and_leaves_the_folder_t
     let end = replaced.wait_with_output().unwrap();
     assert_eq!(end.status.code(), Some(1));
     let told = String::from_utf8_lossy(&end.stderr);
-    assert!(told.contains("/out was taken from this run"), "{told}");
+    says(&told, &["/out was taken from this run"]);
     assert_same(&out, &place.path("whole"));
 }
 

@@ -8,10 +8,10 @@ use std::process::Child;
 use std::time::{Duration, Instant, SystemTime};
 
 use crate::kills::{
-    Random, assert_same, leave_half_a_file, newest, results, set_clock_back_and_forth, signal,
-    wait_for,
+    assert_same, kill_at_any_moment, leave_half_a_file, newest, results, set_clock_back_and_forth,
+    signal, wait_for,
 };
-use crate::program::{Place, Run};
+use crate::program::{Place, Run, says};
 
 /// Contact on cells that opens and closes, jumps, and is asked for surfaces early and late.
 const CELLS: &str = r#"title = "cells"
@@ -119,10 +119,7 @@ fn a_history_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
             wait_for_progress(&checkpoints, newest(&checkpoints));
             signal(&child, how);
             let status = child.wait().unwrap();
-            assert!(
-                how == "-KILL" || status.code() == Some(130),
-                "{name} {status}"
-            );
+            assert!(how == "-KILL" || status.code() == Some(130), "{name}");
             assert!(checkpoints.join("history").exists(), "{name}: too quick");
             set_clock_back_and_forth(&out);
         }
@@ -137,34 +134,15 @@ fn a_history_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
 /// Ten kills; `CONTACT_DMA_KILLS=100 cargo test --test interruption simulate_survival` for more.
 #[test]
 fn kills_at_any_moment_lose_nothing() {
-    let kills = std::env::var("CONTACT_DMA_KILLS").map_or(10, |text| text.parse().unwrap());
     let place = of(CELLS);
     let started = Instant::now();
     place.done("simulate history.toml --quiet --out whole");
-    let span = started.elapsed();
-    let mut random = Random(20_261_121);
-    let (mut killed, mut round) = (0, 0);
-    while killed < kills {
-        round += 1;
-        loop {
-            let mut child = start(&place, &OFTEN);
-            std::thread::sleep(span.mul_f64(random.unit()));
-            let was_running = child.try_wait().unwrap().is_none();
-            if was_running {
-                signal(&child, "-KILL");
-                killed += 1;
-            }
-            assert!(was_running || child.wait().unwrap().success());
-            child.wait().unwrap();
-            if !was_running || killed >= kills {
-                break;
-            }
-        }
+    let end = || {
         simulate(&place, "--quiet").ended(0);
         assert_same(&place.path("out"), &place.path("whole"));
         fs::remove_dir_all(place.path("out")).unwrap();
-    }
-    println!("{killed} kills in {round} folders");
+    };
+    kill_at_any_moment(started.elapsed(), 20_261_121, || start(&place, &OFTEN), end);
 }
 
 #[test]
@@ -202,11 +180,8 @@ fn a_damaged_checkpoint_is_named_and_not_used() {
         leave_half_a_file(&out.join(name));
     }
     let said = simulate(&place, "").ended(0).stderr;
-    assert!(
-        said.contains("checkpoints/history: it is damaged or torn"),
-        "{said}"
-    );
-    assert!(said.contains("from its beginning"), "{said}");
+    let damaged = "checkpoints/history: it is damaged or torn";
+    says(&said, &[damaged, "from its beginning"]);
     assert_same(&out, &place.path("whole"));
 }
 
@@ -221,9 +196,7 @@ fn a_changed_scenario_is_refused_and_its_checkpoint_stays() {
     let before = results(&out);
     let changed = "--set 'time.step=\"0.3 s\"'";
     let refused = simulate(&place, changed).ended(2).stderr;
-    for part in ["- step = \"0.1 s\"", "+ step = \"0.3 s\""] {
-        assert!(refused.contains(part), "{refused}");
-    }
+    says(&refused, &["- step = \"0.1 s\"", "+ step = \"0.3 s\""]);
     assert_eq!(results(&out), before);
     let forced = simulate(&place, &format!("{changed} --force")).ended(0);
     assert_eq!(forced.stderr, "");

@@ -1,11 +1,9 @@
 //! Materials of a bulk modulus, constant or relaxing: the contact compliance against its limits and a numerical inversion of its transform, losses
 //! against correspondence, moduli read back from loops.
 
-use std::f64::consts::PI;
-
-use contact_dma::material::compressibility::Compressibility;
-use contact_dma::prelude::*;
-use contact_dma::sweep::record::CaseResult;
+use crate::prelude::*;
+use contact_dma::material::Compressibility;
+use contact_dma::reference::steady::HarmonicContact;
 use num_complex::Complex;
 
 /// Shear series of a polymer through its transition (Pa, s), and bulk moduli (Pa).
@@ -13,9 +11,12 @@ const EQUILIBRIUM_PA: f64 = 2e6;
 const BRANCHES: [(f64, f64); 4] = [(5e8, 1e-3), (4e8, 0.1), (5e7, 3.0), (4e6, 100.0)];
 const BULK_PA: f64 = 3e9;
 
-fn series() -> Relaxation {
-    let branch = |(modulus_pa, time_s)| RelaxationBranch { modulus_pa, time_s };
-    Relaxation::new(EQUILIBRIUM_PA, BRANCHES.map(branch).to_vec()).unwrap()
+fn shear_series() -> Relaxation {
+    series(EQUILIBRIUM_PA, &BRANCHES)
+}
+
+fn of_shear(known: impl Into<Compressibility>) -> Material {
+    Material::from_relaxation(shear_series(), ModulusKind::Shear, known).unwrap()
 }
 
 fn constant(bulk_pa: f64) -> Compressibility {
@@ -23,31 +24,61 @@ fn constant(bulk_pa: f64) -> Compressibility {
 }
 
 fn shear(bulk_pa: f64) -> Material {
-    Material::from_relaxation(series(), ModulusKind::Shear, constant(bulk_pa)).unwrap()
+    of_shear(constant(bulk_pa))
 }
 
 /// Bulk branches (Pa, s): one at a time of the shear series, one between two of them, one slower than all.
 const BULK_BRANCHES: [(f64, f64); 3] = [(2e9, 0.1), (8e8, 1.0), (5e8, 300.0)];
 
 fn relaxing() -> Material {
-    let branch = |(modulus_pa, time_s)| RelaxationBranch { modulus_pa, time_s };
-    let bulk = Relaxation::new(BULK_PA, BULK_BRANCHES.map(branch).to_vec()).unwrap();
-    let bulk = Compressibility::BulkModulus(bulk);
-    Material::from_relaxation(series(), ModulusKind::Shear, bulk).unwrap()
+    of_shear(Compressibility::BulkModulus(series(
+        BULK_PA,
+        &BULK_BRANCHES,
+    )))
 }
 
-/// s K(s) of the relaxing one, at any complex s.
+/// The equilibrium modulus and the branches of a series at any complex s, times s.
+fn at(equilibrium_pa: f64, branches: &[(f64, f64)], s: Complex<f64>) -> Complex<f64> {
+    let branches = branches
+        .iter()
+        .map(|(g, tau)| g * s * tau / (1.0 + s * tau));
+    branches.fold(equilibrium_pa.into(), |sum, g| sum + g)
+}
+
+/// s K(s) of the relaxing one.
 fn bulk_pa(s: Complex<f64>) -> Complex<f64> {
-    let branches = BULK_BRANCHES.map(|(k, tau)| k * s * tau / (1.0 + s * tau));
-    branches.into_iter().fold(BULK_PA.into(), |sum, k| sum + k)
+    at(BULK_PA, &BULK_BRANCHES, s)
 }
 
-/// s G(s) of the series, at any complex s.
+/// s G(s) of the series.
 fn modulus_pa(s: Complex<f64>) -> Complex<f64> {
-    let branches = BRANCHES.map(|(g, tau)| g * s * tau / (1.0 + s * tau));
-    branches
-        .into_iter()
-        .fold(EQUILIBRIUM_PA.into(), |sum, g| sum + g)
+    at(EQUILIBRIUM_PA, &BRANCHES, s)
+}
+
+fn poisson_ratio(bulk_pa: Complex<f64>, shear_pa: Complex<f64>) -> Complex<f64> {
+    (3.0 * bulk_pa - 2.0 * shear_pa) / (2.0 * (3.0 * bulk_pa + shear_pa))
+}
+
+/// Contact compliance and Poisson ratio at twenty times are the inverses of their transforms.
+fn assert_inverse(material: &Material, nu: impl Fn(Complex<f64>) -> Complex<f64>) {
+    let compliance = material.contact_compliance().unwrap();
+    let transform = |s: Complex<f64>| (1.0 - nu(s)) / (2.0 * modulus_pa(s)) / s;
+    for k in 0..20 {
+        let time_s = 10_f64.powf(-5.0 + 0.5 * f64::from(k));
+        let exact_per_pa = inverted(transform, time_s);
+        near!(
+            compliance.compliance(time_s),
+            exact_per_pa,
+            1e-8,
+            "{time_s:e}"
+        );
+        let found = material.poisson_ratio_at(time_s).unwrap();
+        below!(
+            (found - inverted(|s| nu(s) / s, time_s)).abs(),
+            1e-8,
+            "{time_s:e}"
+        );
+    }
 }
 
 /// f(t) from its transform, by the fixed Talbot contour (J. Abate and P. P. Valko, Int. J. Numer. Meth. Engng 60 (2004) 979).
@@ -66,78 +97,49 @@ fn inverted(transform: impl Fn(Complex<f64>) -> Complex<f64>, time_s: f64) -> f6
 }
 
 #[test]
-fn the_contact_compliance_is_the_inverse_of_its_transform() {
-    let compliance = shear(BULK_PA).contact_compliance().unwrap();
-    let transform = |s: Complex<f64>| {
-        let shear = modulus_pa(s);
-        let nu = (3.0 * BULK_PA - 2.0 * shear) / (2.0 * (3.0 * BULK_PA + shear));
-        (1.0 - nu) / (2.0 * shear) / s
-    };
-    for k in 0..20 {
-        let time_s = 10_f64.powf(-5.0 + 0.5 * f64::from(k));
-        let difference = compliance.compliance(time_s) / inverted(transform, time_s) - 1.0;
-        assert!(difference.abs() < 1e-8, "{time_s:e}: {difference:e}");
-    }
-}
-
-#[test]
-fn the_poisson_ratio_goes_from_the_glass_to_the_rubber_as_its_transform_does() {
+fn contact_compliance_and_poisson_ratio_are_the_inverses_of_their_transforms() {
     let material = shear(BULK_PA);
-    let elastic = |g: f64| (3.0 * BULK_PA - 2.0 * g) / (2.0 * (3.0 * BULK_PA + g));
+    assert_inverse(&material, |s| poisson_ratio(BULK_PA.into(), modulus_pa(s)));
+    // From the glass to the rubber.
+    let elastic = |g: f64| poisson_ratio(BULK_PA.into(), g.into()).re;
     let at = |time_s| material.poisson_ratio_at(time_s).unwrap();
     let glass = EQUILIBRIUM_PA + BRANCHES.iter().map(|(g, _)| g).sum::<f64>();
-    assert!((at(0.0) - elastic(glass)).abs() < 1e-14);
-    assert!((at(f64::INFINITY) - elastic(EQUILIBRIUM_PA)).abs() < 1e-14);
-    let transform = |s: Complex<f64>| {
-        let shear = modulus_pa(s);
-        (3.0 * BULK_PA - 2.0 * shear) / (2.0 * (3.0 * BULK_PA + shear)) / s
-    };
-    for time_s in [1e-4, 1e-2, 1.0, 50.0] {
-        assert!((at(time_s) - inverted(transform, time_s)).abs() < 1e-8);
-    }
+    below!((at(0.0) - elastic(glass)).abs(), 1e-14);
+    below!((at(f64::INFINITY) - elastic(EQUILIBRIUM_PA)).abs(), 1e-14);
     assert_eq!(material.poisson_ratio(), None);
 }
 
 #[test]
 fn the_limits_are_those_of_an_incompressible_and_of_an_elastic_body() {
     // K to infinity: nu to 1/2, and C to J/4, but for G/K.
-    let incompressible = Material::from_relaxation(series(), ModulusKind::Shear, 0.5).unwrap();
-    let (limit, near) = (
-        incompressible.contact_compliance(),
-        shear(1e26).contact_compliance(),
-    );
-    let (limit, near) = (limit.unwrap(), near.unwrap());
+    let bodies = [of_shear(0.5), shear(1e26)];
     for time_s in [0.0, 1e-3, 1.0, 1e4] {
-        let ratio = near.compliance(time_s) / limit.compliance(time_s);
-        assert!((ratio - 1.0).abs() < 1e-14, "{time_s}: {ratio}");
+        let of = |body: &Material| body.contact_compliance().unwrap().compliance(time_s);
+        near!(of(&bodies[1]), of(&bodies[0]), 1e-14, "{time_s}");
     }
     for omega in [0.0, 1e-2, 1e3] {
-        let ratio = shear(1e26).longitudinal_complex_modulus(omega)
-            / incompressible.longitudinal_complex_modulus(omega);
-        assert!((ratio - 1.0).norm() < 1e-14);
+        let [a, b] = bodies
+            .each_ref()
+            .map(|body| body.longitudinal_complex_modulus(omega));
+        below!((b / a - 1.0).norm(), 1e-14);
     }
     // Without branches the constant Poisson ratio is that of the two moduli.
     let bulk = constant(BULK_PA);
-    let elastic = Relaxation::new(1e9, vec![]).unwrap();
     let nu = (3.0 * BULK_PA - 2e9) / (2.0 * (3.0 * BULK_PA + 1e9));
-    let with = |lateral| {
-        let made = Material::from_relaxation(elastic.clone(), ModulusKind::Shear, lateral);
+    let with = |known: Compressibility| {
+        let made = Material::from_relaxation(series(1e9, &[]), ModulusKind::Shear, known);
         let compliance = made.unwrap().contact_compliance().unwrap();
         compliance.instantaneous_compliance()
     };
-    assert!((with(bulk) / with(nu.into()) - 1.0).abs() < 1e-15);
+    near!(with(bulk), with(nu.into()), 1e-15);
 }
 
 #[test]
 fn moduli_in_tension_are_the_same_solid() {
     let shear = shear(BULK_PA);
-    let tension = shear
-        .relaxation_as(ModulusKind::Longitudinal)
-        .unwrap()
-        .unwrap();
-    let bulk = constant(BULK_PA);
-    let again =
-        Material::from_relaxation(tension.clone(), ModulusKind::Longitudinal, bulk).unwrap();
+    let tension = shear.relaxation_as(ModulusKind::Longitudinal);
+    let tension = tension.unwrap().unwrap();
+    let again = material_of(tension.clone(), constant(BULK_PA));
     for omega in [0.0, 1e-3, 0.5, 20.0, 1e5] {
         let [a, b] = [&shear, &again].map(|m| m.contact_complex_modulus(omega));
         assert!((a / b - 1.0).norm() < 1e-11, "{omega}: {a} {b}");
@@ -163,25 +165,12 @@ fn moduli_in_tension_are_the_same_solid() {
 #[test]
 fn a_bulk_modulus_that_relaxes_is_as_exact() {
     let material = relaxing();
-    let compliance = material.contact_compliance().unwrap();
-    let poisson_ratio = |s: Complex<f64>| {
-        let (g, k) = (modulus_pa(s), bulk_pa(s));
-        (3.0 * k - 2.0 * g) / (2.0 * (3.0 * k + g))
-    };
-    let transform = |s: Complex<f64>| (1.0 - poisson_ratio(s)) / (2.0 * modulus_pa(s)) / s;
-    for k in 0..20 {
-        let time_s = 10_f64.powf(-5.0 + 0.5 * f64::from(k));
-        let difference = compliance.compliance(time_s) / inverted(transform, time_s) - 1.0;
-        assert!(difference.abs() < 1e-8, "{time_s:e}: {difference:e}");
-        let nu = material.poisson_ratio_at(time_s).unwrap();
-        let difference = nu - inverted(|s| poisson_ratio(s) / s, time_s);
-        assert!(difference.abs() < 1e-8, "{time_s:e}: {difference:e}");
-    }
+    assert_inverse(&material, |s| poisson_ratio(bulk_pa(s), modulus_pa(s)));
     for omega in [1e-3, 0.7, 40.0, 1e5] {
         let s = Complex::new(0.0, omega);
         let (g, k) = (modulus_pa(s), bulk_pa(s));
         let young = 9.0 * k * g / (3.0 * k + g);
-        let contact = 2.0 * g / (1.0 - poisson_ratio(s));
+        let contact = 2.0 * g / (1.0 - poisson_ratio(k, g));
         let same = |a: Complex<f64>, b: Complex<f64>| (a / b - 1.0).norm() < 1e-13;
         assert!(same(material.longitudinal_complex_modulus(omega), young));
         assert!(same(material.contact_complex_modulus(omega), contact));
@@ -196,29 +185,19 @@ fn a_bulk_modulus_in_proportion_to_the_shear_modulus_leaves_the_poisson_ratio_co
     // K/G = 2 (1 + nu)/(3 (1 - 2 nu)) at all times.
     let nu = 0.3;
     let ratio = 2.0 * (1.0 + nu) / (3.0 * (1.0 - 2.0 * nu));
-    let bulk = Compressibility::BulkModulus(series().scaled(ratio).unwrap());
-    let material = Material::from_relaxation(series(), ModulusKind::Shear, bulk).unwrap();
-    let plain = Material::from_relaxation(series(), ModulusKind::Shear, nu).unwrap();
-    let [own, plain] = [&material, &plain].map(|m| m.contact_compliance().unwrap());
+    let bulk = Compressibility::BulkModulus(shear_series().scaled(ratio).unwrap());
+    let material = of_shear(bulk.clone());
+    let [own, plain] = [&material, &of_shear(nu)].map(|m| m.contact_compliance().unwrap());
     for time_s in [0.0, 1e-3, 0.2, 5.0, 1e4] {
-        let off = own.compliance(time_s) / plain.compliance(time_s) - 1.0;
-        assert!(off.abs() < 1e-12, "{time_s}: {off:e}");
-        assert!((material.poisson_ratio_at(time_s).unwrap() - nu).abs() < 1e-12);
+        near!(own.compliance(time_s), plain.compliance(time_s), 1e-12);
+        below!(
+            (material.poisson_ratio_at(time_s).unwrap() - nu).abs(),
+            1e-12
+        );
     }
-    let tension = Material::from_relaxation(
-        series(),
-        ModulusKind::Longitudinal,
-        Compressibility::BulkModulus(series().scaled(ratio).unwrap()),
-    );
+    let tension = Material::from_relaxation(shear_series(), ModulusKind::Longitudinal, bulk);
     let refused = tension.unwrap_err().to_string();
     assert!(refused.contains("goes with shear moduli"), "{refused}");
-}
-
-fn solved(indenter: impl Indenter + 'static, amplitude_n: f64, omega: f64) -> CaseResult {
-    let drive = HarmonicDrive::load(1.0, amplitude_n).unwrap();
-    let sweep = Sweep::new(shear(BULK_PA), indenter, drive);
-    let record = sweep.case_at_hz(omega / (2.0 * PI)).unwrap();
-    record.result.unwrap()
 }
 
 #[test]
@@ -227,28 +206,29 @@ fn losses_and_moduli_of_loops_are_those_of_correspondence() {
     let compliance = material.contact_compliance().unwrap();
     for omega in [1e-2, 3.0, 1e3] {
         let own = material.longitudinal_complex_modulus(omega);
-        // A punch is linear at any amplitude.
-        let radius_m = 1e-3;
-        let punch = solved(FlatPunch::new(radius_m).unwrap(), 0.5, omega);
-        let lossy = -compliance.complex_compliance(omega).im;
-        let exact_j = PI * 0.25 * lossy / (2.0 * radius_m);
-        let off = (punch.analysis.energy_loss_j / exact_j - 1.0).abs();
-        let bar = punch.errors.as_ref().unwrap();
-        let quantity = contact_dma::sweep::record::error_bars::Quantity::EnergyLoss;
-        assert!(
-            off < bar.of(quantity).unwrap() / exact_j,
-            "{omega}: {off:e}"
+        let of = |indenter, amplitude_n| {
+            let plan = sweep_plan(shear(BULK_PA), indenter, 1.0, amplitude_n);
+            result(&with_bars(plan), omega)
+        };
+        // A punch is linear at any amplitude, a sphere at small ones.
+        let (punch, sphere) = (of(punch(1e-3), 0.5), of(sphere(0.01), 1e-3));
+        let exact = HarmonicContact {
+            mean_n: 1.0,
+            amplitude_n: 0.5,
+            angular_frequency_rad_per_s: omega,
+            contact_compliance: &compliance,
+        };
+        let (_, exact_j) = exact.flat_punch(1e-3);
+        let bar_j = punch.errors.as_ref().unwrap().of(Quantity::EnergyLoss);
+        below!(
+            (punch.analysis.energy_loss_j - exact_j).abs(),
+            bar_j.unwrap()
         );
-        // A sphere is at small amplitudes.
-        let sphere = solved(Sphere::new(0.01).unwrap(), 1e-3, omega);
-        for (result, tolerance) in [(punch, 2e-3), (sphere, 2e-3)] {
+        for result in [punch, sphere] {
             let (storage, loss) = (result.storage_modulus_pa, result.loss_modulus_pa);
             let read = Complex::new(storage.unwrap(), loss.unwrap());
             // 200 steps of a second-order rule.
-            assert!(
-                (read / own - 1.0).norm() < tolerance,
-                "{omega}: {read} {own}"
-            );
+            below!((read / own - 1.0).norm(), 2e-3, "{omega}: {read} {own}");
         }
     }
 }

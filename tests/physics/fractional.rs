@@ -3,15 +3,8 @@
 //!
 //! `MODELS=100 SEED=1 cargo test --release --test physics fractional -- --nocapture` tries and prints as many as asked for.
 
-use crate::common::solids::Random;
-use crate::common::{from_environment, run_case, sweep_plan};
-use contact_dma::indenter::FlatPunch;
+use crate::prelude::*;
 use contact_dma::material::fractional::Fractional;
-use contact_dma::material::{Compressibility, ModulusKind};
-use contact_dma::sweep::plan::SweepPlan;
-use contact_dma::sweep::record::error_bars::Quantity;
-use rayon::prelude::*;
-use std::sync::Arc;
 
 const RADIUS_M: f64 = 1e-3;
 const AMPLITUDE_N: f64 = 0.5;
@@ -40,18 +33,15 @@ impl Given {
 
     fn plan(&self) -> SweepPlan {
         let series = self.model.represent(self.band, self.accuracy).unwrap();
-        let material = series
-            .material(ModulusKind::Longitudinal, POISSON_RATIO)
-            .unwrap();
-        let punch = Arc::new(FlatPunch::new(RADIUS_M).unwrap());
-        sweep_plan(material, punch, 1.0, AMPLITUDE_N)
+        let material = series.material(ModulusKind::Longitudinal, POISSON_RATIO);
+        sweep_plan(material.unwrap(), punch(RADIUS_M), 1.0, AMPLITUDE_N)
     }
 
     /// pi A^2 C''/(2 R), with C = (1 - nu^2)/E.
     fn exact_loss_j(&self, omega: f64) -> f64 {
         let compliance = -self.model.complex_modulus(omega).inv().im;
         let contact = (1.0 - POISSON_RATIO * POISSON_RATIO) * compliance;
-        std::f64::consts::PI * AMPLITUDE_N * AMPLITUDE_N * contact / (2.0 * RADIUS_M)
+        PI * AMPLITUDE_N * AMPLITUDE_N * contact / (2.0 * RADIUS_M)
     }
 
     /// Both ends of the band, and three frequencies inside.
@@ -66,28 +56,18 @@ fn the_loss_of_a_fractional_model_is_in_its_bar_all_over_the_band() {
     let mut random = Random(from_environment("SEED", 8));
     let models = (0..from_environment("MODELS", 10)).map(|_| Given::random(&mut random));
     let models: Vec<Given> = models.collect();
-    let found: Vec<(f64, f64, f64)> = models
-        .par_iter()
-        .flat_map_iter(|given| {
-            let mut plan = given.plan();
-            plan.cycle.error_bars = true;
-            let found = given.frequencies().map(|omega| {
-                let result = run_case(&plan, omega).result.unwrap();
-                let bar_j = result.errors.unwrap().of(Quantity::EnergyLoss).unwrap();
-                let exact_j = given.exact_loss_j(omega);
-                let off = (result.analysis.energy_loss_j / exact_j - 1.0).abs();
-                (off, bar_j / exact_j, given.accuracy)
-            });
-            found.into_iter()
-        })
-        .collect();
-    let inside = found.iter().filter(|(off, bar, _)| off <= bar).count();
-    println!("{inside} of {} inside their bars", found.len());
-    for (off, bar, accuracy) in &found {
-        assert!(off <= bar, "off {off:e}, bar {bar:e}, series {accuracy:e}");
-        // The bar is that of the series and of the cycle, and not of anything far larger.
-        assert!(*bar < accuracy + 1e-3, "bar {bar:e}, series {accuracy:e}");
-    }
+    models.par_iter().for_each(|given| {
+        let plan = with_bars(given.plan());
+        for omega in given.frequencies() {
+            let result = result(&plan, omega);
+            let bar_j = result.errors.unwrap().of(Quantity::EnergyLoss).unwrap();
+            let exact_j = given.exact_loss_j(omega);
+            let off_j = (result.analysis.energy_loss_j - exact_j).abs();
+            assert!(off_j <= bar_j, "{omega}: {off_j:e}, bar {bar_j:e}");
+            // The bar is that of the series and of the cycle, and not of anything far larger.
+            below!(bar_j / exact_j, given.accuracy + 1e-3, "{omega}");
+        }
+    });
 }
 
 #[test]
@@ -106,16 +86,11 @@ fn an_accuracy_counts_what_the_series_misses() {
     let (coarse, _) = at_end(1e-2);
     assert!(coarse.result.is_none());
     let why = coarse.message.unwrap();
-    assert!(
-        why.contains("the material alone") && why.contains("[material.fractional]"),
-        "{why}"
-    );
+    for part in ["the material alone", "[material.fractional]"] {
+        assert!(why.contains(part), "{why}");
+    }
     let (fine, exact_j) = at_end(1e-5);
-    let loss_j = fine.result.unwrap().analysis.energy_loss_j;
-    assert!(
-        (loss_j / exact_j - 1.0).abs() < 1e-4,
-        "{loss_j:e} {exact_j:e}"
-    );
+    near!(fine.energy_loss_j().unwrap(), exact_j, 1e-4);
 }
 
 #[test]
@@ -125,25 +100,17 @@ fn a_fractional_indenter_brings_the_error_of_its_series_along() {
         band: (1e-4, 1e4),
         accuracy: 1e-2,
     };
-    let mut plan = given.plan();
-    plan.cycle.error_bars = true;
+    let mut plan = with_bars(given.plan());
     let bar = |plan: &SweepPlan| {
-        let result = run_case(plan, 1e4).result.unwrap();
+        let result = result(plan, 1e4);
         let bar = result.errors.as_ref().unwrap().bar(Quantity::EnergyLoss);
         bar.unwrap().material / result.analysis.energy_loss_j
     };
     let body = bar(&plan);
     let indenter = plan.base.contact.material.as_ref().clone();
-    let relaxation = indenter.relaxation().unwrap().clone();
-    let exact = Compressibility::PoissonRatio(POISSON_RATIO);
-    let stiff = relaxation.scaled(1.0).unwrap();
-    let plain =
-        contact_dma::material::Material::from_relaxation(stiff, ModulusKind::Longitudinal, exact);
-    plan.base.contact.material = Arc::new(plain.unwrap().against(indenter));
+    // The same series as if it were exact.
+    let plain = material_of(indenter.relaxation().unwrap().clone(), POISSON_RATIO);
+    plan.base.contact.material = Arc::new(plain.against(indenter));
     // Half of the loss is the indenter's, and so is half of what its series misses.
-    let pair = bar(&plan);
-    assert!(
-        (pair / (0.5 * body) - 1.0).abs() < 0.01,
-        "{pair:e} {body:e}"
-    );
+    near!(bar(&plan), 0.5 * body, 0.01);
 }

@@ -1,24 +1,12 @@
 //! Sweeps whose indenter leaves the surface for a part of every cycle, under either control.
 
-use std::f64::consts::{PI, TAU};
-
-use contact_dma::prelude::*;
-use contact_dma::sweep::record::CaseResult;
-use contact_dma::sweep::record::error_bars::Quantity;
-
-use crate::common::{pmma_material, zener_material};
+use crate::prelude::*;
 
 const MEAN_N: f64 = 5.0;
 const AMPLITUDE_N: f64 = 10.0;
 
 fn tapping() -> HarmonicDrive {
     HarmonicDrive::load(MEAN_N, AMPLITUDE_N).unwrap()
-}
-
-fn solved(sweep: Sweep, omega: f64) -> CaseResult {
-    let record = sweep.case_at_hz(omega / TAU).unwrap();
-    assert_eq!(record.status.name(), "converged", "{:?}", record.message);
-    record.result.unwrap()
 }
 
 /// Loss (J) of a punch of this radius: while it rests on the surface without load, that is flat under it, so that the approach is
@@ -52,21 +40,27 @@ fn a_punch_that_is_lifted_off_loses_what_the_harmonics_of_its_load_do() {
             sweep.springs(40).unwrap().steps(steps).unwrap()
         };
         let result = solved(sweep(200), omega);
-        let error = (result.analysis.energy_loss_j / exact - 1.0).abs();
-        let bar = result.errors.as_ref().unwrap().of(Quantity::EnergyLoss);
-        let bar = bar.unwrap() / exact;
-        assert!(error < bar && bar < 5e-3, "{omega}: {error:e} {bar:e}");
+        below!(
+            (result.analysis.energy_loss_j - exact).abs(),
+            bar_j(&result)
+        );
+        below!(bar_j(&result), 5e-3 * exact, "{omega}");
         assert!((result.contact_duty.part - 2.0 / 3.0).abs() < 1e-15);
         assert_eq!(result.contact_duty.error, 0.0);
         assert_eq!(result.storage_modulus_pa, None);
         // The load leaves zero somewhere within a step, wherever that is: halving steps four times is an order of two on average.
         let error = |steps| {
             let result = solved(sweep(steps).without_error_bars(), omega);
-            (result.analysis.energy_loss_j / exact - 1.0).abs()
+            relative(result.analysis.energy_loss_j, exact).abs()
         };
         let order = (error(50) / error(800)).log2() / 4.0;
         assert!(order > 1.7, "{omega}: {order}");
     }
+}
+
+fn bar_j(result: &CaseResult) -> f64 {
+    let errors = result.errors.as_ref().unwrap();
+    errors.of(Quantity::EnergyLoss).unwrap()
 }
 
 fn under_a_sphere(drive: HarmonicDrive) -> Sweep {
@@ -77,47 +71,33 @@ fn under_a_sphere(drive: HarmonicDrive) -> Sweep {
 fn a_tapping_sphere_dissipates_the_area_of_its_loop_within_the_error_of_both_engines() {
     for omega in [0.3, 1.0, 4.0] {
         let springs = solved(under_a_sphere(tapping()), omega);
-        let loss_j = springs.analysis.energy_loss_j;
-        let bar_j = |result: &CaseResult| {
-            let errors = result.errors.as_ref().unwrap();
-            errors.of(Quantity::EnergyLoss).unwrap()
-        };
-        let imbalance_j = (springs.dissipated_j() - loss_j).abs();
-        assert!(
-            imbalance_j < bar_j(&springs),
-            "{omega}: {imbalance_j:e} of {loss_j:e}, {:e}",
-            bar_j(&springs)
-        );
+        let (loss_j, own_j) = (springs.analysis.energy_loss_j, bar_j(&springs));
+        below!((springs.dissipated_j() - loss_j).abs(), own_j, "{omega}");
         let fine = under_a_sphere(tapping()).without_error_bars();
         let fine = solved(fine.springs(1600).unwrap().steps(3200).unwrap(), omega);
-        let off_j = (fine.analysis.energy_loss_j - loss_j).abs();
-        assert!(off_j < bar_j(&springs), "{omega}: {off_j:e} of {loss_j:e}");
-        assert!(bar_j(&springs) < 5e-3 * loss_j, "{omega}");
+        below!(
+            (fine.analysis.energy_loss_j - loss_j).abs(),
+            own_j,
+            "{omega}"
+        );
+        below!(own_j, 5e-3 * loss_j, "{omega}");
         let cells = solved(under_a_sphere(tapping()).cells(64).unwrap(), omega);
         let apart_j = (cells.analysis.energy_loss_j - loss_j).abs();
-        assert!(
-            apart_j < bar_j(&cells) + bar_j(&springs) && apart_j < 5e-3 * loss_j,
-            "{omega}: {apart_j:e} of {loss_j:e}"
-        );
+        below!(apart_j, bar_j(&cells) + own_j, "{omega}");
+        below!(apart_j, 5e-3 * loss_j, "{omega}");
     }
 }
 
 #[test]
 fn the_direct_search_finds_the_cycle_that_marching_comes_to() {
-    let plan = |march: bool| {
+    let [direct, marched] = [Method::Direct, Method::March].map(|method| {
         let sweep = under_a_sphere(tapping()).without_error_bars();
         let mut plan = sweep.frequencies_hz([0.1]).unwrap().into_plan();
-        plan.cycle.tolerance = 1e-7;
-        if march {
-            plan.cycle.method = contact_dma::sweep::plan::Method::March;
-        }
-        let outcome = Sweep::from(plan).solve().unwrap();
-        let record = outcome.records.into_iter().next().unwrap();
-        record.result.unwrap().analysis.energy_loss_j
-    };
-    let (direct, marched) = (plan(false), plan(true));
+        (plan.cycle.tolerance, plan.cycle.method) = (1e-7, method);
+        loss_j(&plan, 0.1 * TAU)
+    });
     // Both are as near to the stabilised cycle as the tolerance says.
-    assert!((direct / marched - 1.0).abs() < 1e-6, "{direct} {marched}");
+    near!(direct, marched, 1e-6);
 }
 
 #[test]
@@ -128,10 +108,7 @@ fn the_deeper_the_load_would_pull_the_shorter_the_contact_down_to_none() {
         let result = solved(under_a_sphere(drive).without_error_bars(), 1.0);
         let loss_j = result.analysis.energy_loss_j;
         assert!(0.0 < loss_j && loss_j < last, "{mean_n}: {loss_j:e}");
-        assert!(
-            (result.dissipated_j() / loss_j - 1.0).abs() < 0.05,
-            "{mean_n}"
-        );
+        near!(result.dissipated_j(), loss_j, 0.05, "{mean_n}");
         last = loss_j;
     }
 }
@@ -151,9 +128,7 @@ fn the_part_in_contact_under_an_approach_lies_within_its_error() {
     let always = HarmonicDrive::approach(8e-6, 2e-6).unwrap();
     let sweep = Sweep::new(pmma_material(), Sphere::new(0.01).unwrap(), always);
     let result = solved(sweep.without_error_bars(), 1e-3);
-    assert_eq!(
-        (result.contact_duty.part, result.contact_duty.error),
-        (1.0, 0.0)
-    );
+    let duty = result.contact_duty;
+    assert_eq!((duty.part, duty.error), (1.0, 0.0));
     assert!(result.storage_modulus_pa.is_some());
 }

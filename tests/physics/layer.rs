@@ -1,23 +1,13 @@
 //! A layer on a base, rigid or not, on cells, against the dual integral equation, closed forms and correspondence.
 
-use std::f64::consts::PI;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
-
-use crate::common::{first_touch, grid, pmma_material, root_mean_square, sweep_plan};
-use contact_dma::contact::Prescribed;
-use contact_dma::contact::half_space::convolution::Convolution;
+use crate::prelude::*;
+use contact_dma::contact::half_space::HalfSpace;
 use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::contact::half_space::layer::{Base, Layer, LayerInfluence, YieldingBase};
-use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
 use contact_dma::engine::{EngineBuilder, LargestContact};
-use contact_dma::engine::{EngineKind, SolverPlan};
-use contact_dma::indenter::{FlatPunch, Indenter, Sphere};
-use contact_dma::reference::layer::LayerContact;
-use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::plan::SweepPlan;
+use contact_dma::reference::layer::{ElasticContact, LayerContact};
+use contact_dma::reference::steady::HarmonicContact;
 use contact_dma::sweep::plan::layer::LayerPlan;
-use contact_dma::sweep::record::CaseResult;
 
 const COMPLIANCE_PER_PA: f64 = 4e-10;
 const A_OVER_H: [f64; 7] = [0.01, 0.1, 0.3, 1.0, 2.0, 4.0, 10.0];
@@ -62,38 +52,24 @@ fn layer(kind: Layer, a_over_h: f64) -> Layer {
 }
 
 fn on_grid(indenter: &dyn Indenter, layer: Layer, grid: Grid) -> HalfSpace {
-    with_influence(indenter, Arc::new(LayerInfluence::new(layer)), grid)
+    cells_on_layer(indenter, Arc::new(LayerInfluence::new(layer)), grid)
 }
 
-fn with_influence(
-    indenter: &dyn Indenter,
-    influence: Arc<LayerInfluence>,
-    grid: Grid,
-) -> HalfSpace {
-    let gap_m = (0..grid.cells()).map(|cell| {
-        let (x_m, y_m) = grid.center(cell);
-        indenter.gap_m(x_m, y_m)
-    });
-    let operator = Arc::new(Convolution::on(grid, Some(influence)).unwrap());
-    let bounded = indenter.pressure_is_bounded();
-    HalfSpace::new(
-        operator,
-        gap_m.collect(),
-        bounded,
-        SolverSettings::default(),
-    )
+/// A contact of [`RADIUS_M`] under a sphere.
+fn under_ball(layer: Layer) -> ElasticContact {
+    let exact = LayerContact::new(layer, RADIUS_M, 60);
+    exact.under_sphere(0.01, COMPLIANCE_PER_PA).unwrap()
 }
 
-/// Cells, of which a quarter is solved, on a square of this half width.
-fn engine(indenter: &dyn Indenter, layer: Layer, half_width_m: f64, cells: usize) -> HalfSpace {
-    let quarter = grid(half_width_m, cells).quarter().unwrap();
-    on_grid(indenter, layer, quarter)
+/// The stiffness of a punch, over that on a half-space.
+fn stiffness(load_n: f64) -> f64 {
+    0.5 * load_n * COMPLIANCE_PER_PA / (1e-7 * RADIUS_M)
 }
 
 /// The load under an approach, found by the fast way.
-fn load_n(mut engine: HalfSpace, approach_m: f64) -> f64 {
+fn load_n(engine: &mut HalfSpace, approach_m: f64) -> f64 {
     let prescribed = Prescribed::ApproachM(approach_m);
-    let (solution, _) = first_touch(&mut engine, COMPLIANCE_PER_PA, prescribed).unwrap();
+    let (solution, _) = first_touch(engine, COMPLIANCE_PER_PA, prescribed).unwrap();
     assert_eq!(engine.safeguarded_instants(), 0);
     solution.load_n
 }
@@ -105,21 +81,20 @@ fn a_sphere_on_cells_is_as_stiff_as_the_dual_integral_equation_has_it_in_second_
     for kind in KINDS {
         for a_over_h in A_OVER_H {
             let layer = layer(kind, a_over_h);
-            let exact = LayerContact::new(layer, RADIUS_M, 60);
-            let exact = exact.under_sphere(0.01, COMPLIANCE_PER_PA).unwrap();
+            let exact = under_ball(layer);
             let influence = Arc::new(LayerInfluence::new(layer));
             let error = |cells: usize| {
                 // The edge of the contact lies in another place of a cell for each width.
                 let errors = (0..5).map(|k| {
                     let width_m = (1.2 + 0.0137 * f64::from(k)) * RADIUS_M;
                     let quarter = grid(width_m, cells).quarter().unwrap();
-                    let engine = with_influence(&sphere, Arc::clone(&influence), quarter);
-                    load_n(engine, exact.approach_m) / exact.load_n - 1.0
+                    let mut engine = cells_on_layer(&sphere, Arc::clone(&influence), quarter);
+                    relative(load_n(&mut engine, exact.approach_m), exact.load_n)
                 });
                 root_mean_square(errors)
             };
             let (coarse, fine) = (error(32), error(128));
-            assert!(fine < 1.5e-4, "{kind:?} {a_over_h}: {fine:e}");
+            below!(fine, 1.5e-4, "{kind:?} {a_over_h}");
             orders.push(0.5 * (coarse / fine).log2());
         }
     }
@@ -141,17 +116,14 @@ fn a_punch_on_cells_is_as_stiff_as_the_dual_integral_equation_has_it() {
             let influence = Arc::new(LayerInfluence::new(layer));
             let error = |cells: usize| {
                 let quarter = grid(1.1 * RADIUS_M, cells).quarter().unwrap();
-                let engine = with_influence(&punch, Arc::clone(&influence), quarter);
-                let stiffness = 0.5 * load_n(engine, 1e-7) * COMPLIANCE_PER_PA / (1e-7 * RADIUS_M);
-                (stiffness / exact - 1.0).abs()
+                let mut engine = cells_on_layer(&punch, Arc::clone(&influence), quarter);
+                relative(stiffness(load_n(&mut engine, 1e-7)), exact).abs()
             };
             let (coarse, fine) = (error(64), error(256));
             // The rim is a staircase, at which the pressure is singular: first order, and four times as much where it grows like the
             // fourth power of the radius.
-            assert!(
-                fine < 4e-3 && coarse / fine > 2.5,
-                "{kind:?} {a_over_h}: {coarse:e} {fine:e}"
-            );
+            below!(fine, 4e-3, "{kind:?} {a_over_h}");
+            below!(fine, coarse / 2.5, "{kind:?} {a_over_h}");
         }
     }
 }
@@ -164,15 +136,13 @@ fn a_stiff_layer_on_a_soft_base_leaves_the_middle_of_a_punch() {
         // The equation knows no lift-off: there the middle would have to be pulled.
         let held = LayerContact::new(layer, RADIUS_M, 80);
         let held = held.punch_stiffness().unwrap();
-        let mut engine = engine(&punch, layer, 1.1 * RADIUS_M, 128);
+        let quarter = grid(1.1 * RADIUS_M, 128).quarter().unwrap();
+        let mut engine = on_grid(&punch, layer, quarter);
         let prescribed = Prescribed::ApproachM(1e-7);
         let (found, pressure_pa) = first_touch(&mut engine, COMPLIANCE_PER_PA, prescribed).unwrap();
-        let stiffness = 0.5 * found.load_n * COMPLIANCE_PER_PA / (1e-7 * RADIUS_M);
         assert_eq!(pressure_pa[0] == 0.0, leaves, "{a_over_h}");
-        assert!(
-            stiffness < held && stiffness > 0.98 * held,
-            "{a_over_h} {stiffness} {held}"
-        );
+        let part = stiffness(found.load_n) / held;
+        assert!(part < 1.0 && part > 0.98, "{a_over_h} {part}");
     }
 }
 
@@ -194,11 +164,7 @@ fn the_numbers_of_the_guide_are_those_of_the_dual_integral_equation() {
             let contact = LayerContact::new(layer(rigid(Base::Bonded, nu), row[0]), RADIUS_M, 60);
             let exact = contact.punch_stiffness().unwrap();
             // Three decimals.
-            assert!(
-                (told - exact).abs() < 6e-4,
-                "{} {nu}: {told} {exact}",
-                row[0]
-            );
+            below!((told - exact).abs(), 6e-4, "{} {nu}", row[0]);
         }
     }
 }
@@ -208,28 +174,18 @@ fn windows_quarters_and_the_safe_way_find_the_same_contact_where_the_surface_ris
     let sphere = Sphere::new(0.01).unwrap();
     for a_over_h in [0.5, 3.0] {
         let layer = layer(rigid(Base::Bonded, 0.5), a_over_h);
-        let exact = LayerContact::new(layer, RADIUS_M, 60);
-        let load_n = exact.under_sphere(0.01, COMPLIANCE_PER_PA).unwrap().load_n;
+        let load = Prescribed::LoadN(under_ball(layer).load_n);
         let whole = grid(3.0 * RADIUS_M, 128);
         let approach_m = |mut engine: HalfSpace| {
-            let load = Prescribed::LoadN(load_n);
-            first_touch(&mut engine, COMPLIANCE_PER_PA, load)
-                .unwrap()
-                .0
-                .approach_m
+            let (found, _) = first_touch(&mut engine, COMPLIANCE_PER_PA, load).unwrap();
+            found.approach_m
         };
         let found_m = approach_m(on_grid(&sphere, layer, whole));
         let quarter_m = approach_m(on_grid(&sphere, layer, whole.quarter().unwrap()));
         let safe_m = approach_m(on_grid(&sphere, layer, whole).by_safeguard_alone());
         // The tolerance of an instant is 1e-8.
-        assert!(
-            (quarter_m / found_m - 1.0).abs() < 1e-7,
-            "{a_over_h} {quarter_m:e} {found_m:e}"
-        );
-        assert!(
-            (safe_m / found_m - 1.0).abs() < 1e-7,
-            "{a_over_h} {safe_m:e} {found_m:e}"
-        );
+        near!(quarter_m, found_m, 1e-7, "{a_over_h}");
+        near!(safe_m, found_m, 1e-7, "{a_over_h}");
     }
 }
 
@@ -238,11 +194,10 @@ fn the_domain_is_as_large_as_the_contact_from_far_below_its_radius_to_far_above(
     for kind in KINDS {
         for a_over_h in A_OVER_H {
             let layer = layer(kind, a_over_h);
-            let exact = LayerContact::new(layer, RADIUS_M, 60);
-            let exact = exact.under_sphere(0.01, COMPLIANCE_PER_PA).unwrap();
+            let exact = under_ball(layer);
             for (control, maximum) in [
-                (contact_dma::drive::Control::Load, exact.load_n),
-                (contact_dma::drive::Control::Approach, exact.approach_m),
+                (Control::Load, exact.load_n),
+                (Control::Approach, exact.approach_m),
             ] {
                 let largest = LargestContact {
                     control,
@@ -254,34 +209,23 @@ fn the_domain_is_as_large_as_the_contact_from_far_below_its_radius_to_far_above(
                     cells: 32,
                     ..SolverPlan::default()
                 };
-                let sphere = Arc::new(Sphere::new(0.01).unwrap());
-                let engines = EngineBuilder::on(Some(layer), sphere, solver, largest).unwrap();
-                let width = engines.half_width_m() / RADIUS_M;
+                let engines = EngineBuilder::on(Some(layer), sphere(0.01), solver, largest);
+                let width = engines.unwrap().half_width_m() / RADIUS_M;
                 // A tenth of room, and what cells of a 24th of the radius make of the edge.
-                assert!(
-                    (1.05..1.2).contains(&width),
-                    "{kind:?} {a_over_h} {control:?} {width}"
-                );
+                let what = format!("{kind:?} {a_over_h} {control:?} {width}");
+                assert!((1.05..1.2).contains(&width), "{what}");
             }
         }
     }
 }
 
+const OMEGA: f64 = 0.00844;
+
 fn on_layer(indenter: Arc<dyn Indenter>, amplitude_n: f64, layer: LayerPlan) -> CaseResult {
-    let mut plan: SweepPlan = sweep_plan(pmma_material(), indenter, 10.0, amplitude_n);
+    let mut plan = on_cells(pmma_plan(indenter, amplitude_n), 48, 200);
     plan.base.contact.layer = Some(layer);
-    plan.solver.engine = EngineKind::HalfSpace;
-    plan.solver.cells = 48;
-    plan.cycle.steps = 200;
     plan.cycle.tolerance = 1e-6;
-    plan.angular_frequencies_rad_per_s = vec![0.00844];
-    let setup = Setup::new(plan).unwrap();
-    let case = setup.plan().cases().remove(0);
-    setup
-        .run(&case, &AtomicBool::new(false))
-        .unwrap()
-        .result
-        .unwrap()
+    result(&plan, OMEGA)
 }
 
 fn bonded(thickness_m: f64, yielding: Option<YieldingBase>) -> LayerPlan {
@@ -297,42 +241,38 @@ const SOFT: Option<YieldingBase> = yielding(0.4, 0.3).yielding;
 
 #[test]
 fn a_punch_on_a_viscoelastic_layer_answers_by_correspondence() {
-    let material = pmma_material();
-    let compliance = material.contact_compliance().unwrap();
-    let complex = compliance.complex_compliance(0.00844);
+    let compliance = pmma();
+    let relaxed = compliance.equilibrium_compliance().unwrap();
     for (thickness_m, yielding) in [(1e-4, None), (1e-3, None), (1e-4, SOFT), (1e-3, SOFT)] {
-        let punch = FlatPunch::new(5e-4).unwrap();
-        let result = on_layer(Arc::new(punch), 5.0, bonded(thickness_m, yielding));
-        // The mean of the approach says how compliant layer and cells are: the load's mean at the compliance at rest.
-        let approach_m = result.approach_m;
-        let mean_m = 0.5 * (approach_m.minimum + approach_m.maximum);
-        let per_compliance = mean_m / (10.0 * compliance.equilibrium_compliance().unwrap());
-        let exact_j = PI * 25.0 * complex.im.abs() * per_compliance;
-        let found = result.analysis.energy_loss_j / exact_j;
+        let result = on_layer(punch(5e-4), 5.0, bonded(thickness_m, yielding));
+        // The mean of the approach says how compliant layer and cells are: the load's mean at the compliance at rest; which is that of
+        // a half-space under a punch of another radius.
+        let mean_m = 0.5 * (result.approach_m.minimum + result.approach_m.maximum);
+        let radius_m = 10.0 * relaxed / (2.0 * mean_m);
+        let exact = HarmonicContact {
+            mean_n: 10.0,
+            amplitude_n: 5.0,
+            angular_frequency_rad_per_s: OMEGA,
+            contact_compliance: &compliance,
+        };
+        let (_, exact_j) = exact.flat_punch(radius_m);
         // The mean of extremes at 200 steps, and the rule of second order: 1e-4 as asked for.
-        assert!((found - 1.0).abs() < 1e-4, "{thickness_m} {found}");
+        near!(
+            result.analysis.energy_loss_j,
+            exact_j,
+            1e-4,
+            "{thickness_m}"
+        );
     }
 }
 
 #[test]
 fn equivalent_moduli_are_those_of_the_material_however_thin_the_layer() {
-    let material = pmma_material();
-    let exact = material.longitudinal_complex_modulus(0.00844);
+    let exact = pmma_material().longitudinal_complex_modulus(OMEGA);
     for (thickness_m, yielding) in [(5e-5, None), (3e-4, None), (3e-3, None), (1e-4, SOFT)] {
-        let sphere = Sphere::new(0.01).unwrap();
-        let result = on_layer(Arc::new(sphere), 0.1, bonded(thickness_m, yielding));
-        let (storage, loss) = (
-            result.storage_modulus_pa.unwrap(),
-            result.loss_modulus_pa.unwrap(),
-        );
+        let result = on_layer(sphere(0.01), 0.1, bonded(thickness_m, yielding));
         // The contact moves by a part of a cell, or not at all: the tangent radius is that of cells, a percent or two.
-        assert!(
-            (storage / exact.re - 1.0).abs() < 0.03,
-            "{thickness_m} {storage:e}"
-        );
-        assert!(
-            (loss / exact.im - 1.0).abs() < 0.03,
-            "{thickness_m} {loss:e}"
-        );
+        near!(result.storage_modulus_pa.unwrap(), exact.re, 0.03);
+        near!(result.loss_modulus_pa.unwrap(), exact.im, 0.03);
     }
 }

@@ -1,5 +1,8 @@
 //! What the library computes: contact, cycles, histories, error bars, against closed forms, the other engine and refinement.
 
+#[macro_use]
+#[path = "../common/near.rs"]
+mod near;
 #[path = "../common/mod.rs"]
 mod common;
 
@@ -13,6 +16,7 @@ mod error_bars;
 mod fractional;
 mod half_space_work;
 mod identification;
+mod identified;
 mod identified_bodies;
 mod identified_histories;
 mod instant_tolerance;
@@ -24,6 +28,7 @@ mod no_false_result;
 mod numbered_cycles;
 mod periodic;
 mod pmma_baseline;
+mod prelude;
 mod pressure_profiles;
 mod punch_on_cells;
 mod quarter;

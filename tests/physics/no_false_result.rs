@@ -1,16 +1,12 @@
 //! What is no result is not returned as one, and what is doubtful says so: numbers that are not finite, a loss below zero, the wrong
 //! one of several peaks.
 
-use contact_dma::indenter::Sphere;
-use contact_dma::prelude::*;
-use contact_dma::sweep::record::{CaseRecord, Status};
-
-use crate::common::{on_cells, pmma_material, run_case, sphere_of_10_mm as sphere, sweep_plan};
+use crate::prelude::*;
 
 #[test]
 fn numbers_beyond_those_of_the_machine_are_a_failed_case_whose_record_can_be_read_again() {
     for (load_n, omega) in [(1e200, 1.0), (10.0, 1e-308)] {
-        let mut plan = sweep_plan(pmma_material(), sphere(), load_n, 0.5 * load_n);
+        let mut plan = sweep_plan(pmma_material(), sphere(0.01), load_n, 0.5 * load_n);
         plan.cycle.error_bars = true;
         let record = run_case(&plan, omega);
         assert_eq!(record.status, Status::Failed, "{load_n:e} {omega:e}");
@@ -21,13 +17,13 @@ fn numbers_beyond_those_of_the_machine_are_a_failed_case_whose_record_can_be_rea
         assert_eq!(postcard::from_bytes::<CaseRecord>(&stored).unwrap(), record);
     }
     // Far away and yet within the range.
-    let plan = sweep_plan(pmma_material(), sphere(), 1e100, 5e99);
+    let plan = sweep_plan(pmma_material(), sphere(0.01), 1e100, 5e99);
     assert_eq!(run_case(&plan, 1e-100).status, Status::Converged);
 }
 
 #[test]
 fn a_loss_below_zero_is_told() {
-    let plan = sweep_plan(pmma_material(), sphere(), 10.0, 5.0);
+    let plan = sweep_plan(pmma_material(), sphere(0.01), 10.0, 5.0);
     let codes =
         |record: &CaseRecord| -> Vec<&str> { record.warnings.iter().map(|w| w.code()).collect() };
     // So slow that next to nothing is lost, less than what few cells leave.

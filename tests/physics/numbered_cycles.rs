@@ -1,18 +1,9 @@
 //! Cycles by their number: the n-th after a rest of given length, as an experiment has it, against the closed form of a punch on a
 //! standard linear solid, against the same history followed step by step, and against the stabilised cycle it comes to.
 
-use std::f64::consts::TAU;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
-
+use crate::prelude::*;
 use contact_dma::cycle::{LoopAnalysis, analyse_open};
-use contact_dma::material::Creep;
-use contact_dma::prelude::*;
 use contact_dma::simulation::cycles::HistoryCycle;
-use contact_dma::sweep::record::Status;
-use contact_dma::sweep::record::error_bars::Quantity;
-
-use crate::common::{pmma_material, zener, zener_material};
 
 const PUNCH_RADIUS_M: f64 = 1e-3;
 const MEAN_N: f64 = 10.0;
@@ -43,9 +34,8 @@ fn exact(compliance: &Creep, (hold_s, omega): (f64, f64), number: usize) -> Loop
     let period_s = TAU / omega;
     let times = (0..=SAMPLES).map(|k| period_s * k as f64 / SAMPLES as f64);
     let first_s = (number - 1) as f64 * period_s;
-    let loads = times
-        .clone()
-        .map(|t| MEAN_N + AMPLITUDE_N * (omega * t).sin());
+    let load_n = |t: f64| MEAN_N + AMPLITUDE_N * (omega * t).sin();
+    let loads = times.clone().map(load_n);
     let approaches = times.map(|t| approach_m(compliance, (hold_s, omega), first_s + t));
     analyse_open(&loads.collect::<Vec<_>>(), &approaches.collect::<Vec<_>>()).unwrap()
 }
@@ -65,40 +55,36 @@ fn any_cycle_of_a_punch_is_that_of_the_closed_form_within_its_error() {
         (20.0, 0.03, 1),
     ] {
         let punch = FlatPunch::new(PUNCH_RADIUS_M).unwrap();
-        let sweep = Sweep::new(zener_material(), punch, drive(hold_s))
-            .springs(40)
-            .unwrap();
-        let record = case(sweep.at_cycle(number).unwrap(), omega);
+        let sweep = Sweep::new(zener_material(), punch, drive(hold_s));
+        let sweep = sweep.springs(40).unwrap().at_cycle(number);
+        let record = case(sweep.unwrap(), omega);
         assert_eq!((record.status, record.cycles), (Status::Transient, number));
         let result = record.result.as_ref().unwrap();
         let exact = exact(&zener(), (hold_s, omega), number);
-        let error = (result.analysis.energy_loss_j / exact.energy_loss_j - 1.0).abs();
-        let bar = record.energy_loss_error_j().unwrap() / exact.energy_loss_j;
+        let (found, what) = (&result.analysis, format!("{hold_s} {omega} {number}"));
+        let bar = |quantity| result.errors.as_ref().unwrap().of(quantity).unwrap();
+        let bar_j = bar(Quantity::EnergyLoss);
+        below!(
+            (found.energy_loss_j - exact.energy_loss_j).abs(),
+            bar_j,
+            "{what}"
+        );
         // 200 steps of a second-order rule; in the slowest case a step is as long as the retardation time.
-        assert!(
-            error < bar && bar < 2e-3,
-            "{hold_s} {omega} {number}: {error:e} {bar:e}"
-        );
-        let phase_bar = result
-            .errors
-            .as_ref()
-            .unwrap()
-            .of(Quantity::PhaseLag)
-            .unwrap();
-        let phase_error = (result.analysis.phase_lag_rad - exact.phase_lag_rad).abs();
-        assert!(
-            phase_error < phase_bar,
-            "{hold_s} {omega} {number}: {phase_error:e} {phase_bar:e}"
-        );
+        below!(bar_j, 2e-3 * exact.energy_loss_j, "{what}");
+        let off_rad = (found.phase_lag_rad - exact.phase_lag_rad).abs();
+        below!(off_rad, bar(Quantity::PhaseLag), "{what}");
         // What a branch dissipates is not the area of an open loop.
         assert!(result.branches.is_empty());
-        let mean_m = result.analysis.approach_mean_m;
-        assert!((mean_m / exact.approach_mean_m - 1.0).abs() < 1e-4);
+        near!(found.approach_mean_m, exact.approach_mean_m, 1e-4);
     }
 }
 
 /// The cycles of a mean held and then an oscillation, as `simulate` follows them.
-fn followed(material: Material, hold_s: f64, (omega, cycles): (f64, f64)) -> Vec<HistoryCycle> {
+fn cycles_of_history(
+    material: Material,
+    hold_s: f64,
+    (omega, cycles): (f64, f64),
+) -> Vec<HistoryCycle> {
     let held = Segment::Step {
         to: MEAN_N,
         duration_s: hold_s,
@@ -111,16 +97,13 @@ fn followed(material: Material, hold_s: f64, (omega, cycles): (f64, f64)) -> Vec
         cycles,
     };
     let drive = SegmentedDrive::new(Control::Load, vec![held, sine]).unwrap();
-    let sphere = Arc::new(Sphere::new(0.01).unwrap());
-    let plan = ScenarioPlan::new(material, sphere, drive);
-    let outcome = Simulation::new(plan).unwrap();
-    outcome.run(&AtomicBool::new(false), &|_, _| {}).cycles
+    simulated(ScenarioPlan::new(material, sphere(0.01), drive)).cycles
 }
 
 #[test]
 fn a_cycle_by_its_number_is_the_one_of_the_history_within_the_errors_of_both() {
     let (hold_s, omega) = (100.0, 0.02);
-    let cycles = followed(pmma_material(), hold_s, (omega, 4.5));
+    let cycles = cycles_of_history(pmma_material(), hold_s, (omega, 4.5));
     assert_eq!(cycles.len(), 4);
     for cycle in &cycles {
         let numbers = cycle.numbers.as_ref().unwrap();
@@ -130,53 +113,38 @@ fn a_cycle_by_its_number_is_the_one_of_the_history_within_the_errors_of_both() {
         let result = record.result.as_ref().unwrap();
         let errors = result.errors.as_ref().unwrap();
         let bar = |quantity| errors.of(quantity).unwrap();
-        let close = |name: &str, (a, b): (f64, f64), (bar_a, bar_b): (f64, f64)| {
-            let apart = (a - b).abs();
-            assert!(
-                apart < bar_a + bar_b,
-                "{name} of cycle {}: {a:e} {b:e}, {apart:e} {bar_a:e} {bar_b:e}",
-                cycle.number
-            );
-            assert!(
-                bar_a < 3e-3 * a.abs() && bar_b < 1e-2 * b.abs(),
-                "{name}: {bar_a:e} {bar_b:e} of {a:e}"
-            );
+        let close = |name: &str, of_both: [(f64, f64); 2]| {
+            let [(a, bar_a), (b, bar_b)] = of_both;
+            let what = format!("{name} of cycle {}", cycle.number);
+            below!((a - b).abs(), bar_a + bar_b, "{what}");
+            below!(bar_a, 3e-3 * a.abs(), "{what}");
+            below!(bar_b, 1e-2 * b.abs(), "{what}");
         };
-        let (own, followed) = (&result.analysis, &numbers.analysis);
+        let (own, followed, error) = (&result.analysis, &numbers.analysis, &cycle.errors);
+        let loss = (own.energy_loss_j, bar(Quantity::EnergyLoss));
         close(
             "loss",
-            (own.energy_loss_j, followed.energy_loss_j),
-            (
-                bar(Quantity::EnergyLoss),
-                cycle.errors.energy_loss_j.unwrap(),
-            ),
+            [loss, (followed.energy_loss_j, error.energy_loss_j.unwrap())],
         );
+        let phase = (own.phase_lag_rad, bar(Quantity::PhaseLag));
         close(
             "phase",
-            (own.phase_lag_rad, followed.phase_lag_rad),
-            (bar(Quantity::PhaseLag), cycle.errors.phase_lag_rad.unwrap()),
+            [
+                phase,
+                (followed.phase_lag_rad, error.phase_lag_rad.unwrap()),
+            ],
         );
-        close(
-            "E'",
-            (
-                result.storage_modulus_pa.unwrap(),
-                numbers.moduli_pa.unwrap().0,
-            ),
-            (
-                bar(Quantity::StorageModulus),
-                cycle.errors.storage_modulus_pa.unwrap(),
-            ),
+        let storage = (
+            result.storage_modulus_pa.unwrap(),
+            bar(Quantity::StorageModulus),
         );
+        let error_pa = error.storage_modulus_pa.unwrap();
+        close("E'", [storage, (numbers.moduli_pa.unwrap().0, error_pa)]);
     }
     // The approach still creeps, less with every cycle.
-    let changes: Vec<f64> = cycles
-        .iter()
-        .map(|cycle| cycle.numbers.as_ref().unwrap().approach_change_m)
-        .collect();
-    assert!(
-        changes.windows(2).all(|w| w[1] < w[0]) && changes[3] > 0.0,
-        "{changes:?}"
-    );
+    let change_m = |cycle: &HistoryCycle| cycle.numbers.as_ref().unwrap().approach_change_m;
+    let changes: Vec<f64> = cycles.iter().map(change_m).collect();
+    assert!(changes.windows(2).all(|w| w[1] < w[0]) && changes[3] > 0.0);
 }
 
 #[test]
@@ -187,12 +155,9 @@ fn a_late_cycle_is_the_stabilised_one() {
     let late = Sweep::new(zener_material(), sphere(), drive(30.0));
     let late = case(late.at_cycle(6).unwrap(), omega);
     // Six cycles and the hold are a hundred retardation times of 1 s.
-    let (a, b) = (
-        stabilised.energy_loss_j().unwrap(),
-        late.energy_loss_j().unwrap(),
-    );
-    let bars = stabilised.energy_loss_error_j().unwrap() + late.energy_loss_error_j().unwrap();
-    assert!((a - b).abs() < bars, "{a:e} {b:e} {bars:e}");
+    let [a, b] = [&stabilised, &late].map(|record| record.energy_loss_j().unwrap());
+    let bars = [&stabilised, &late].map(|record| record.energy_loss_error_j().unwrap());
+    below!((a - b).abs(), bars[0] + bars[1]);
     assert!(late.steady_distance.unwrap() < 1e-10);
     assert_eq!(late.status, Status::Transient);
 }

@@ -1,17 +1,12 @@
 //! Surfaces that repeat themselves, against closed forms of wavy ones, Hertz at their crests, refinement and invariance.
 
-use std::f64::consts::{PI, SQRT_2, TAU};
-use std::sync::Arc;
+use std::f64::consts::SQRT_2;
 
+use crate::prelude::*;
 use contact_dma::contact::half_space::SolverSettings;
 use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::contact::half_space::periodic::{Periodic, PeriodicOperator};
-use contact_dma::contact::{Prescribed, Solution};
 use contact_dma::indenter::{MapEdge, MapQuantity};
-use contact_dma::prelude::*;
-use contact_dma::sweep::record::CaseResult;
-
-use crate::common::{first_touch, zener_material};
 
 const WAVELENGTH_M: f64 = 1e-3;
 const AMPLITUDE_M: f64 = 1e-6;
@@ -65,11 +60,9 @@ fn a_wave_is_in_contact_as_westergaard_has_it_up_to_full_contact() {
             let touching = pressure.iter().filter(|p| **p > 0.0).count() as f64;
             // Of the two edges, each lies within a cell.
             let part = touching / (4 * n) as f64;
-            assert!(
-                (part - 2.0 * half_width).abs() <= 2.0 / n as f64,
-                "{share} {n}"
-            );
-            assert!((solution.load_n / (share * full_pa * sides.0 * sides.1) - 1.0).abs() < 1e-14);
+            assert!((part - 2.0 * half_width).abs() <= 2.0 / n as f64);
+            let load_n = share * full_pa * sides.0 * sides.1;
+            near!(solution.load_n, load_n, 1e-14, "{share} {n}");
             let squares = (0..n).map(|k| {
                 let sine = (PI * (k as f64 + 0.5) / n as f64).sin();
                 let inside = share - sine * sine;
@@ -84,10 +77,8 @@ fn a_wave_is_in_contact_as_westergaard_has_it_up_to_full_contact() {
         };
         let (coarse, fine) = (error(128), error(1024));
         // The pressure falls like a square root at the edge, which lies anywhere in a cell: order 3/2 of it in the mean square at best.
-        assert!(
-            fine < 3e-3 && coarse / fine > 4.0,
-            "{share}: {coarse:e} {fine:e}"
-        );
+        below!(fine, 3e-3, "{share}");
+        below!(fine, coarse / 4.0, "{share}");
     }
     for share in [1.0 + 1e-9, 3.0] {
         let cells = (64, 4);
@@ -95,14 +86,11 @@ fn a_wave_is_in_contact_as_westergaard_has_it_up_to_full_contact() {
         let (solution, pressure) = pressed(cells, (WAVELENGTH_M, 1e-4), &heights, share * full_pa);
         for (k, p) in pressure.iter().take(64).enumerate() {
             let exact = full_pa * (share + (TAU * (k as f64 + 0.5) / 64.0).cos());
-            assert!(
-                (p - exact).abs() < 1e-7 * full_pa,
-                "{share} {k}: {p} {exact}"
-            );
+            below!((p - exact).abs(), 1e-7 * full_pa, "{share} {k}");
         }
         // The surface follows the wave, whose mean lies its amplitude below the highest cell.
         let deepest = AMPLITUDE_M * (TAU * 0.5 / 64.0).cos();
-        assert!((solution.approach_m / deepest - 1.0).abs() < 1e-7);
+        near!(solution.approach_m, deepest, 1e-7);
     }
 }
 
@@ -111,9 +99,8 @@ fn waves_along_both_axes_are_hertz_at_their_crests_and_full_under_the_pressure_o
     // K. L. Johnson, J. A. Greenwood, J. G. Higginson, Int. J. Mech. Sci. 27 (1985) 383, for Delta cos cos.
     let full_pa = SQRT_2 * PI * AMPLITUDE_M / (COMPLIANCE * WAVELENGTH_M);
     let square = (WAVELENGTH_M, WAVELENGTH_M);
-    let wave = |x: f64, y: f64| x.cos() * y.cos();
-    let under =
-        |n: usize, share: f64| pressed((n, n), square, &heights((n, n), wave), share * full_pa);
+    let wave = |n: usize| heights((n, n), |x, y| x.cos() * y.cos());
+    let under = |n: usize, share: f64| pressed((n, n), square, &wave(n), share * full_pa);
     let (_, full) = under(64, 1.001);
     let least = full.iter().copied().fold(f64::INFINITY, f64::min);
     // Between cells the trough is a little deeper than in any.
@@ -129,8 +116,8 @@ fn waves_along_both_axes_are_hertz_at_their_crests_and_full_under_the_pressure_o
     let (solution, pressure) = under(512, share);
     let peak = pressure.iter().copied().fold(0.0, f64::max);
     let hertz = 1.5 * load_n / (PI * contact_m * contact_m);
-    assert!((peak / hertz - 1.0).abs() < 0.01, "{peak:e} {hertz:e}");
-    assert!((solution.contact_radius_m / SQRT_2 / contact_m - 1.0).abs() < 0.02);
+    near!(peak, hertz, 0.01);
+    near!(solution.contact_radius_m / SQRT_2, contact_m, 0.02);
 }
 
 /// Heights that look random, and are the same in every run.
@@ -156,53 +143,42 @@ fn it_does_not_matter_where_a_period_begins_nor_how_many_are_taken() {
         let moved: Vec<f64> = (0..own.len()).map(|cell| own[from(cell)]).collect();
         let (other, pressures) = pressed(cells, sides, &moved, mean_pa);
         let scale = pressure.iter().copied().fold(0.0, f64::max);
-        assert!((other.approach_m / solution.approach_m - 1.0).abs() < 1e-9);
+        near!(other.approach_m, solution.approach_m, 1e-9);
         for (cell, p) in pressures.iter().enumerate() {
             assert!((p - pressure[from(cell)]).abs() < 1e-5 * scale, "{mean_pa}");
         }
         let twice: Vec<f64> = own.chunks(48).flat_map(|row| [row, row].concat()).collect();
         let (double, _) = pressed((96, 40), (2.0 * sides.0, sides.1), &twice, mean_pa);
-        assert!((double.approach_m / solution.approach_m - 1.0).abs() < 1e-9);
+        near!(double.approach_m, solution.approach_m, 1e-9);
         let ratio = double.contact_radius_m / solution.contact_radius_m;
-        assert!((ratio - SQRT_2).abs() < 1e-9, "{mean_pa}: {ratio}");
+        below!((ratio - SQRT_2).abs(), 1e-9, "{mean_pa}");
     }
 }
 
-fn solved(steps: usize, march: bool) -> CaseResult {
-    let map = HeightMap::new(
-        (32, 32),
-        (WAVELENGTH_M / 32.0, WAVELENGTH_M / 32.0),
-        rough((32, 32)),
-        MapQuantity::Height,
-        MapEdge::Periodic,
-    );
-    let drive = HarmonicDrive::load(1.0, 0.5).unwrap();
-    let sweep = Sweep::new(zener_material(), map.unwrap(), drive);
-    let mut plan = sweep.steps(steps).unwrap().into_plan();
-    plan.cycle.tolerance = 1e-7;
-    if march {
-        plan.cycle.method = contact_dma::sweep::plan::Method::March;
-    }
-    let record = Sweep::from(plan).case_at_hz(0.2).unwrap();
-    assert_eq!(record.status.name(), "converged", "{:?}", record.message);
-    record.result.unwrap()
+fn under_map(steps: usize, method: Method) -> CaseResult {
+    let spacing_m = (WAVELENGTH_M / 32.0, WAVELENGTH_M / 32.0);
+    let (heights, quantity) = (rough((32, 32)), MapQuantity::Height);
+    let map = HeightMap::new((32, 32), spacing_m, heights, quantity, MapEdge::Periodic);
+    let mut plan = sweep_plan(zener_material(), Arc::new(map.unwrap()), 1.0, 0.5);
+    (plan.cycle.steps, plan.cycle.tolerance) = (steps, 1e-7);
+    (plan.cycle.method, plan.solver.engine) = (method, EngineKind::HalfSpace);
+    result(&plan, 0.2 * TAU)
 }
 
 #[test]
 fn the_loss_under_a_rough_surface_is_what_its_branches_dissipate_in_second_order() {
-    let imbalance = |steps: usize| {
-        let result = solved(steps, false);
-        result.dissipated_j() / result.analysis.energy_loss_j - 1.0
-    };
-    let (coarse, fine) = (imbalance(50), imbalance(200));
-    // Cells come and go within a step.
-    assert!(
-        fine.abs() < 1e-3 && (coarse / fine).abs() > 6.0,
-        "{coarse:e} {fine:e}"
+    let found = under_map(50, Method::Direct);
+    let imbalance =
+        |result: &CaseResult| relative(result.dissipated_j(), result.analysis.energy_loss_j).abs();
+    let (coarse, fine) = (
+        imbalance(&found),
+        imbalance(&under_map(200, Method::Direct)),
     );
-    let (found, marched) = (solved(50, false), solved(50, true));
-    let ratio = found.analysis.energy_loss_j / marched.analysis.energy_loss_j;
-    assert!((ratio - 1.0).abs() < 1e-5, "{ratio}");
+    // Cells come and go within a step.
+    below!(fine, 1e-3);
+    below!(fine, coarse / 6.0);
+    let marched = under_map(50, Method::March).analysis;
+    near!(found.analysis.energy_loss_j, marched.energy_loss_j, 1e-5);
     // Without an edge no modulus is read from the loop.
     assert_eq!(found.storage_modulus_pa, None);
 }

@@ -18,14 +18,8 @@ fn main_job() -> Outcome {
     let text = resolved::resolved_text(setup.plan());
     let folder = tempfile::TempDir::new().unwrap();
     let store = Store::open(folder.path(), &text, false).unwrap();
-    run::run(
-        &setup,
-        &store,
-        Mode::on_threads(2),
-        &AtomicBool::new(false),
-        &(),
-    )
-    .unwrap()
+    let (threads, never) = (Mode::on_threads(2), AtomicBool::new(false));
+    run::run(&setup, &store, threads, &never, &()).unwrap()
 }
 
 fn relative(found: f64, expected: f64) -> f64 {
@@ -53,11 +47,13 @@ fn the_pmma_sweep_reproduces_the_committed_baseline_and_its_peak_the_exact_frequ
     let mut table = csv::Reader::from_path(folder.join("sweep.csv")).unwrap();
     let headers = table.headers().unwrap().clone();
     let column = |name: &str| headers.iter().position(|h| h == name).unwrap();
-    let (frequency, loss) = (
-        column("angular_frequency_rad_per_s"),
-        column("energy_loss_j"),
-    );
-    let (phase, cycles) = (column("phase_lag_rad"), column("cycles"));
+    let [frequency, loss, phase, cycles] = [
+        "angular_frequency_rad_per_s",
+        "energy_loss_j",
+        "phase_lag_rad",
+        "cycles",
+    ]
+    .map(column);
     let rows: Vec<_> = table.records().map(|row| row.unwrap()).collect();
     assert_eq!(rows.len(), outcome.records.len());
     for (row, record) in rows.iter().zip(&outcome.records) {
@@ -72,10 +68,7 @@ fn the_pmma_sweep_reproduces_the_committed_baseline_and_its_peak_the_exact_frequ
     let summary: serde_json::Value = serde_json::from_slice(&summary).unwrap();
     let peaks: Vec<Peak> = serde_json::from_value(summary["peaks"].clone()).unwrap();
     for (peak, before) in outcome.peaks.iter().zip(&peaks) {
-        let (now, then) = (
-            peak.angular_frequency_rad_per_s,
-            before.angular_frequency_rad_per_s,
-        );
+        let [now, then] = [peak, before].map(|peak| peak.angular_frequency_rad_per_s);
         assert!(relative(now, then) < 1e-4);
     }
 }

@@ -1,20 +1,11 @@
 //! Error columns of histories hold what they promise: over random materials, shapes and drives the true error of nearly every row
 //! lies inside.
 
-use std::f64::consts::TAU;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
-
-use crate::common::from_environment;
-use crate::common::solids::Random;
-use contact_dma::drive::{Control, Fineness, Segment, SegmentedDrive};
-use contact_dma::engine::EngineKind;
-use contact_dma::indenter::{Cone, Indenter, PowerLaw, Sphere};
-use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
+use crate::common::solids::spread_solid;
+use crate::prelude::*;
+use contact_dma::drive::Fineness;
+use contact_dma::simulation::HistoryRow;
 use contact_dma::simulation::errors::RowErrors;
-use contact_dma::simulation::scenario::ScenarioPlan;
-use contact_dma::simulation::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome};
-use rayon::prelude::*;
 
 /// One to four branches, whose moduli add up to a third to a hundred thousand times the equilibrium modulus, over up to six
 /// decades of relaxation times.
@@ -22,20 +13,13 @@ fn material(random: &mut Random) -> Material {
     let count = 1 + random.count(0, 3);
     let ratio = random.power_of_ten(-0.5, 5.0);
     let decades = random.between(0.5, 2.0);
-    let branches = (0..count)
-        .map(|i| RelaxationBranch {
-            modulus_pa: 1e9 / count as f64,
-            time_s: 10_f64.powf(decades * (i as f64 + random.between(-0.3, 0.3))),
-        })
-        .collect();
-    let relaxation = Relaxation::new(1e9 / ratio, branches).unwrap();
-    Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.4).unwrap()
+    spread_solid(random, count, (1e9 / ratio, ratio), (decades, 0.3))
 }
 
 fn shape(random: &mut Random) -> Arc<dyn Indenter> {
     match random.count(0, 3) {
-        0 | 1 => Arc::new(Sphere::new(0.01).unwrap()),
-        2 => Arc::new(Cone::new(1.3).unwrap()),
+        0 | 1 => sphere(0.01),
+        2 => cone(1.3),
         _ => Arc::new(PowerLaw::new(random.between(1.2, 4.0), 1e-3, 1e-4).unwrap()),
     }
 }
@@ -50,13 +34,14 @@ fn sine(random: &mut Random, control: Control, scale: f64) -> Segment {
     let cycles = random.between(0.5, 3.0);
     if control == Control::Load {
         const POINTS: usize = 60;
-        let at = |point: usize| cycles * TAU * point as f64 / POINTS as f64;
-        let value = |point| (mean + amplitude * (at(point) + phase_rad).sin()).max(0.0);
+        let angles = (0..=POINTS).map(|point| cycles * TAU * point as f64 / POINTS as f64);
+        let value = |angle: f64| (mean + amplitude * (angle + phase_rad).sin()).max(0.0);
         return Segment::Table {
-            times_s: (0..=POINTS)
-                .map(|p| at(p) / angular_frequency_rad_per_s)
+            times_s: angles
+                .clone()
+                .map(|a| a / angular_frequency_rad_per_s)
                 .collect(),
-            values: (0..=POINTS).map(value).collect(),
+            values: angles.map(value).collect(),
         };
     }
     Segment::Sine {
@@ -116,19 +101,13 @@ fn scenario(random: &mut Random, springs: usize) -> ScenarioPlan {
     plan
 }
 
-fn run(simulation: &Simulation) -> SimulationOutcome {
-    let outcome = simulation.run(&AtomicBool::new(false), &|_, _| {});
-    assert_eq!(outcome.ended, SimulationEnd::Done);
-    outcome
-}
-
 /// The rows of the history with so many times the steps, on springs, so many of them.
 fn refined(plan: &ScenarioPlan, steps: usize, springs: usize) -> Vec<HistoryRow> {
     let mut plan = plan.clone();
     plan.solver.engine = EngineKind::Axisymmetric;
     plan.solver.springs = springs;
     let simulation = Simulation::with_fineness(plan, Fineness::Split(steps)).unwrap();
-    let rows = run(&simulation).rows;
+    let rows = followed(&simulation).rows;
     let in_full = simulation.schedule().in_full.iter();
     let common = rows.into_iter().zip(in_full);
     common
@@ -159,7 +138,7 @@ const COLUMNS: [Column; 4] = [
 
 /// Bar over true error of every column of every row that has both.
 fn ratios(plan: &ScenarioPlan, exact: &[HistoryRow]) -> [Vec<f64>; 4] {
-    let outcome = run(&Simulation::new(plan.clone()).unwrap());
+    let outcome = simulated(plan.clone());
     assert_eq!(outcome.errors_missing, None);
     assert_eq!(outcome.rows.len(), outcome.errors.len());
     assert_eq!(outcome.rows.len(), exact.len());
@@ -203,6 +182,14 @@ fn table(all: &[[Vec<f64>; 4]]) -> [(f64, f64); 4] {
     })
 }
 
+fn assert_inside(plans: &[ScenarioPlan], springs: usize) {
+    let of = |plan| ratios(plan, &refined(plan, 8, springs));
+    let all: Vec<_> = plans.par_iter().map(of).collect();
+    for (column, (share, _)) in COLUMNS.iter().zip(table(&all)) {
+        assert!(share >= 0.95, "{}: {share}", column.0);
+    }
+}
+
 /// `CONTACT_DMA_SEED=7 CONTACT_DMA_HISTORIES=500 cargo test --test physics simulate_errors -- --nocapture` for others and more.
 #[test]
 fn the_true_error_lies_inside_the_bar() {
@@ -210,13 +197,7 @@ fn the_true_error_lies_inside_the_bar() {
     let springs = from_environment("CONTACT_DMA_SPRINGS", 100) as usize;
     let count = from_environment("CONTACT_DMA_HISTORIES", 50);
     let plans: Vec<_> = (0..count).map(|_| scenario(&mut random, springs)).collect();
-    let all: Vec<_> = plans
-        .par_iter()
-        .map(|plan| ratios(plan, &refined(plan, 8, 8 * springs)))
-        .collect();
-    for (column, (share, _)) in COLUMNS.iter().zip(table(&all)) {
-        assert!(share >= 0.95, "{}: {share}", column.0);
-    }
+    assert_inside(&plans, 8 * springs);
 }
 
 /// On cells, against springs: few, because they take long.
@@ -234,50 +215,42 @@ fn the_true_error_lies_inside_the_bar_on_cells() {
             plans.push(plan);
         }
     }
-    let all: Vec<_> = plans
-        .par_iter()
-        .map(|plan| ratios(plan, &refined(plan, 8, 800)))
-        .collect();
-    for (column, (share, _)) in COLUMNS.iter().zip(table(&all)) {
-        assert!(share >= 0.95, "{}: {share}", column.0);
-    }
+    assert_inside(&plans, 800);
 }
 
 /// Two branches of 0.5 GPa at 1 ms and 1 s over 1 kPa, a step of 1 N: the contact of the end is a hundred times that of the beginning.
 #[test]
 fn cells_follow_a_contact_that_grows_fifty_times() {
-    let branch = |time_s| RelaxationBranch {
-        modulus_pa: 0.5e9,
-        time_s,
-    };
-    let relaxation = Relaxation::new(1e3, vec![branch(1e-3), branch(1.0)]).unwrap();
-    let material = Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.45).unwrap();
+    let material = solid(1e3, &[(0.5e9, 1e-3), (0.5e9, 1.0)], 0.45);
     let step = Segment::Step {
         to: 1.0,
         duration_s: 3e6,
     };
-    let sphere = Arc::new(Sphere::new(0.01).unwrap());
     let drive = SegmentedDrive::new(Control::Load, vec![step]).unwrap();
-    let mut plan = ScenarioPlan::new(material, sphere, drive);
+    let mut plan = ScenarioPlan::new(material, sphere(0.01), drive);
     plan.solver.engine = EngineKind::HalfSpace;
     plan.solver.cells = 40;
     let exact = refined(&plan, 8, 800);
-    let outcome = run(&Simulation::new(plan.clone()).unwrap());
+    let outcome = simulated(plan.clone());
     let growth = exact[exact.len() - 1].contact_radius_m / exact[0].contact_radius_m;
     assert!(growth > 50.0, "{growth}");
     let pairs = || outcome.rows.iter().zip(&exact);
     // Ten to twenty cells to a radius: to half a cell of the finest.
     for (row, exact) in pairs() {
-        let off = row.contact_radius_m / exact.contact_radius_m - 1.0;
-        assert!(off.abs() < 0.025, "{row:?}: {off:e}");
-        let off = row.approach_m.unwrap() / exact.approach_m.unwrap() - 1.0;
-        assert!(off.abs() < 1e-3, "{row:?}: {off:e}");
+        near!(
+            row.contact_radius_m,
+            exact.contact_radius_m,
+            0.025,
+            "{row:?}"
+        );
+        let [found_m, exact_m] = [row, exact].map(|row| row.approach_m.unwrap());
+        near!(found_m, exact_m, 1e-3, "{row:?}");
     }
     // At first, and when the contact has come to rest, the pressure is that of Hertz. In between it has its peak within a hair of
     // the edge, where the body has not had time to relax, which no cell resolves; the bars say so.
     for (row, exact) in [pairs().next(), pairs().next_back()].into_iter().flatten() {
-        let off = row.peak_pressure_pa.unwrap() / exact.peak_pressure_pa.unwrap() - 1.0;
-        assert!(off.abs() < 5e-3, "{row:?}: {off:e}");
+        let [found_pa, exact_pa] = [row, exact].map(|row| row.peak_pressure_pa.unwrap());
+        near!(found_pa, exact_pa, 5e-3, "{row:?}");
     }
     assert_eq!(outcome.domain_enlarged, 0);
     let [_, approach, radius, pressure] = table(&[ratios(&plan, &exact)]);

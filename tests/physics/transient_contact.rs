@@ -3,14 +3,9 @@
 //! Sources: E. H. Lee and J. R. M. Radok, J. Appl. Mech. 27 (1960) 438; T. C. T. Ting, J. Appl. Mech. 33 (1966) 845; the cases
 //! of S. Spinu, Advances in Tribology 2018, 9432894, figures 4 to 7.
 
-use std::f64::consts::PI;
-
-use crate::common::{half_space, maxwell, observed_order, pmma, relative, springs, zener};
+use crate::prelude::*;
 use contact_dma::contact::axisymmetric::Axisymmetric;
-use contact_dma::contact::{Engine, Prescribed, Solution};
-use contact_dma::history::{March, TimeRule};
-use contact_dma::indenter::Sphere;
-use contact_dma::material::Creep;
+use contact_dma::reference::step_load::{StepLoad, maxwell_falling_ramp_cubed_radius};
 use contact_dma::reference::transient::{
     maxwell_half_sine_cubed_radius, step_load_contact_radius_m,
 };
@@ -18,14 +13,13 @@ use contact_dma::reference::transient::{
 const RADIUS_M: f64 = 0.01;
 const LOAD_N: f64 = 10.0;
 
-fn sphere() -> Sphere {
+fn ball() -> Sphere {
     Sphere::new(RADIUS_M).unwrap()
 }
 
-/// Contact radius and peak pressure of the first instant under `LOAD_N`.
-fn hertz(compliance: &Creep) -> (f64, f64) {
-    let a = step_load_contact_radius_m(RADIUS_M, LOAD_N, compliance, 0.0);
-    (a, 1.5 * LOAD_N / (PI * a * a))
+/// Contact radius of the first instant under `LOAD_N`.
+fn hertz_m(compliance: &Creep) -> f64 {
+    step_load_contact_radius_m(RADIUS_M, LOAD_N, compliance, 0.0)
 }
 
 struct Sample {
@@ -42,28 +36,21 @@ fn follow(
     load_n: impl Fn(f64) -> f64,
 ) -> Vec<Sample> {
     let mut march = March::new(engine, compliance.clone(), TimeRule::Linear);
-    let solution = march.jump(Prescribed::LoadN(load_n(0.0))).unwrap();
-    let pressure = march.pressure().to_vec();
-    let mut samples = vec![Sample {
-        time_s: 0.0,
-        solution,
-        pressure,
-    }];
     let mut before_s = 0.0;
-    for &time_s in times_s {
+    let sample = |time_s: f64| {
         let weights = march.weights(time_s - before_s);
-        let solution = march
-            .step(&weights, Prescribed::LoadN(load_n(time_s)))
-            .unwrap();
+        before_s = time_s;
+        let load = Prescribed::LoadN(load_n(time_s));
+        let solution = march.step(&weights, load).unwrap();
         let pressure = march.pressure().to_vec();
-        samples.push(Sample {
+        Sample {
             time_s,
             solution,
             pressure,
-        });
-        before_s = time_s;
-    }
-    samples
+        }
+    };
+    let times = std::iter::once(0.0).chain(times_s.iter().copied());
+    times.map(sample).collect()
 }
 
 /// `count` times from `end_s / count` to `end_s`.
@@ -71,16 +58,6 @@ fn equal(end_s: f64, count: usize) -> Vec<f64> {
     (1..=count)
         .map(|i| end_s * i as f64 / count as f64)
         .collect()
-}
-
-/// `count` times from `first_s` to `end_s`, equally far apart in their logarithms.
-fn logarithmic(first_s: f64, end_s: f64, count: usize) -> Vec<f64> {
-    let growth = (end_s / first_s).powf(1.0 / (count - 1) as f64);
-    let mut times: Vec<f64> = (0..count)
-        .map(|i| first_s * growth.powi(i as i32))
-        .collect();
-    times[count - 1] = end_s;
-    times
 }
 
 /// A material under a step load: first and last time, and by how many spring widths the contact radius may be off.
@@ -103,28 +80,17 @@ fn steps() -> [Step; 3] {
             compliance.instantaneous_compliance() / compliance.equilibrium_compliance().unwrap();
         (1.0 - root.sqrt()) / (1.0 + root.sqrt())
     };
+    let step = |name, compliance, (first_s, end_s), widths| Step {
+        name,
+        compliance,
+        first_s,
+        end_s,
+        widths,
+    };
     [
-        Step {
-            name: "Maxwell",
-            compliance: maxwell(),
-            first_s: 1e-3,
-            end_s: 3.0,
-            widths: 0.005,
-        },
-        Step {
-            name: "Zener",
-            widths: kink(&zener()),
-            compliance: zener(),
-            first_s: 1e-3,
-            end_s: 5.0,
-        },
-        Step {
-            name: "PMMA",
-            widths: kink(&pmma()),
-            compliance: pmma(),
-            first_s: 1e-2,
-            end_s: 1000.0,
-        },
+        step("Maxwell", maxwell(), (1e-3, 3.0), 0.005),
+        step("Zener", zener(), (1e-3, 5.0), kink(&zener())),
+        step("PMMA", pmma(), (1e-2, 1000.0), kink(&pmma())),
     ]
 }
 
@@ -136,6 +102,26 @@ impl Step {
     fn run(&self, engine: &mut dyn Engine, times_s: &[f64]) -> Vec<Sample> {
         follow(engine, &self.compliance, times_s, |_| LOAD_N)
     }
+
+    /// Approach and contact radius on the way, held to these parts of the exact approach and of a node's width, which depend on the
+    /// width over the exact radius.
+    fn check(
+        &self,
+        engine: &mut dyn Engine,
+        times_s: &[f64],
+        node_m: f64,
+        (approach, widths): (impl Fn(f64) -> f64, f64),
+    ) {
+        for sample in self.run(engine, times_s) {
+            let what = format!("{} {} s", self.name, sample.time_s);
+            let (compliance, found) = (&self.compliance, sample.solution);
+            let a = step_load_contact_radius_m(RADIUS_M, LOAD_N, compliance, sample.time_s);
+            let bound = approach(node_m / a);
+            near!(found.approach_m, a * a / RADIUS_M, bound, "{what}");
+            let off_m = (found.contact_radius_m - a).abs();
+            below!(off_m / node_m, widths, "{what}");
+        }
+    }
 }
 
 #[test]
@@ -143,34 +129,18 @@ fn a_step_load_on_springs_follows_lee_and_radok_at_all_times_and_with_any_steps(
     const SPRINGS: usize = 400;
     for step in steps() {
         let half_width_m = 1.02 * step.last_radius_m();
-        let width_m = half_width_m / SPRINGS as f64;
         for times in [
-            logarithmic(step.first_s, step.end_s, 20),
-            logarithmic(step.first_s, step.end_s, 200),
+            log_spaced(step.first_s, step.end_s, 20),
+            log_spaced(step.first_s, step.end_s, 200),
             equal(step.end_s, 20),
             equal(step.end_s, 200),
         ] {
-            for sample in step.run(&mut springs(&sphere(), half_width_m, SPRINGS), &times) {
-                let Sample {
-                    time_s, solution, ..
-                } = sample;
-                let a = step_load_contact_radius_m(RADIUS_M, LOAD_N, &step.compliance, time_s);
-                // The midpoint rule is off by at most (dx/a)^2 / 6 of the approach; the time rule by nothing, because it is
-                // exact for the load, which is the sum over the springs.
-                let bound = (width_m / a).powi(2) / 6.0;
-                let approach = relative(solution.approach_m, a * a / RADIUS_M);
-                assert!(
-                    approach.abs() < 1.01 * bound,
-                    "{} {time_s} s: {approach:e}",
-                    step.name
-                );
-                let radius = (solution.contact_radius_m - a).abs() / width_m;
-                assert!(
-                    radius < step.widths,
-                    "{} {time_s} s: {radius} widths",
-                    step.name
-                );
-            }
+            let mut engine = springs(&ball(), half_width_m, SPRINGS);
+            let width_m = half_width_m / SPRINGS as f64;
+            // The midpoint rule is off by at most (dx/a)^2 / 6 of the approach; the time rule by nothing, because it is
+            // exact for the load, which is the sum over the springs.
+            let bounds = (|share: f64| 1.01 * share.powi(2) / 6.0, step.widths);
+            step.check(&mut engine, &times, width_m, bounds);
         }
     }
 }
@@ -182,24 +152,20 @@ fn the_approach_under_a_step_load_does_not_depend_on_the_steps_that_led_there() 
             step.run(engine, times).last().unwrap().solution.approach_m
         };
         let half_width_m = 1.15 * step.last_radius_m();
-        let mut row = springs(&sphere(), half_width_m, 100);
+        let mut row = springs(&ball(), half_width_m, 100);
         let once = last(&mut row, &[step.end_s]);
         for times in [
             equal(step.end_s, 100),
-            logarithmic(step.first_s, step.end_s, 30),
+            log_spaced(step.first_s, step.end_s, 30),
         ] {
             // A hundred steps' roundings.
-            assert!(
-                relative(last(&mut row, &times), once).abs() < 1e-12,
-                "{}",
-                step.name
-            );
+            near!(last(&mut row, &times), once, 1e-12, "{}", step.name);
         }
-        let mut cells = half_space(&sphere(), half_width_m, 32);
+        let mut cells = half_space(&ball(), half_width_m, 32);
         let once = last(&mut cells, &[step.end_s]);
-        let often = last(&mut cells, &logarithmic(step.first_s, step.end_s, 10));
+        let often = last(&mut cells, &log_spaced(step.first_s, step.end_s, 10));
         // The solver's tolerance of 1e-8, in each of eleven instants.
-        assert!(relative(often, once).abs() < 1e-7, "{}", step.name);
+        near!(often, once, 1e-7, "{}", step.name);
     }
 }
 
@@ -208,80 +174,43 @@ fn a_step_load_on_the_half_space_follows_lee_and_radok() {
     const CELLS: usize = 64;
     for step in steps() {
         let half_width_m = 1.15 * step.last_radius_m();
-        let cell_m = 2.0 * half_width_m / CELLS as f64;
         for times in [
-            logarithmic(step.first_s, step.end_s, 12),
+            log_spaced(step.first_s, step.end_s, 12),
             equal(step.end_s, 12),
         ] {
-            for sample in step.run(&mut half_space(&sphere(), half_width_m, CELLS), &times) {
-                let Sample {
-                    time_s, solution, ..
-                } = sample;
-                let a = step_load_contact_radius_m(RADIUS_M, LOAD_N, &step.compliance, time_s);
-                let share = cell_m / a;
-                // Discretisation only, of second order in the cell: 0.055 (cell/a)^2 was seen at most.
-                let approach = relative(solution.approach_m, a * a / RADIUS_M);
-                assert!(
-                    approach.abs() < 0.1 * share * share,
-                    "{} {time_s} s: {approach:e} {}",
-                    step.name,
-                    approach / share / share
-                );
-                // Cells are counted: 0.25 of a cell was seen at most.
-                let radius = (solution.contact_radius_m - a).abs() / cell_m;
-                assert!(radius < 0.5, "{} {time_s} s: {radius} cells", step.name);
-            }
+            let mut engine = half_space(&ball(), half_width_m, CELLS);
+            let cell_m = 2.0 * half_width_m / CELLS as f64;
+            // Discretisation only, of second order in the cell: 0.055 (cell/a)^2 was seen at most, and 0.25 of a cell.
+            let bounds = (|share: f64| 0.1 * share * share, 0.5);
+            step.check(&mut engine, &times, cell_m, bounds);
         }
     }
 }
 
-#[test]
-fn a_march_in_small_steps_profits_from_the_last_pressure() {
-    let [.., step] = steps();
-    let half_width_m = 1.15 * step.last_radius_m();
-    let mut engine = half_space(&sphere(), half_width_m, 64);
-    let samples = step.run(&mut engine, &equal(100.0, 100));
-    let (first, rest) = samples.split_first().unwrap();
-    let iterations: usize = rest.iter().map(|s| s.solution.iterations).sum();
-    let (first, mean) = (first.solution.iterations, iterations as f64 / 100.0);
-    // 17.4 iterations per step and 2078 convolutions in all were seen, after 29 iterations in the first instant.
-    assert!(
-        engine.convolutions() < 2500,
-        "{} convolutions",
-        engine.convolutions()
-    );
-    assert!(
-        mean < 21.0,
-        "{mean} iterations per step, {first} in the first"
-    );
+fn half_sine(s: f64) -> f64 {
+    LOAD_N * s.sin()
 }
 
 /// Largest error of a/a_H before and after the contact's maximum, under W_0 sin s on a Maxwell body.
 fn half_sine_errors(engine: &mut dyn Engine, steps: usize) -> (f64, f64) {
-    let compliance = maxwell();
-    let (hertz_m, _) = hertz(&compliance);
-    let (mut rising, mut falling) = (0.0_f64, 0.0_f64);
-    for sample in follow(engine, &compliance, &equal(3.0, steps), |s| {
-        LOAD_N * s.sin()
-    }) {
+    let hertz_m = hertz_m(&maxwell());
+    let samples = follow(engine, &maxwell(), &equal(3.0, steps), half_sine);
+    let error = |sample: &Sample| {
         let exact = maxwell_half_sine_cubed_radius(sample.time_s).cbrt();
-        let error = (sample.solution.contact_radius_m / hertz_m - exact).abs();
-        if sample.time_s < 0.75 * PI {
-            rising = rising.max(error);
-        } else {
-            falling = falling.max(error);
-        }
-    }
+        (sample.solution.contact_radius_m / hertz_m - exact).abs()
+    };
+    let (rising, falling): (Vec<_>, Vec<_>) = (samples.iter()).partition(|s| s.time_s < 0.75 * PI);
+    let [rising, falling] = [rising, falling].map(|part| largest(part.into_iter().map(error)));
     (rising, falling)
 }
 
 #[test]
 fn a_half_sine_on_a_maxwell_body_follows_ting_past_the_maximum_of_the_contact() {
-    let half_width_m = 1.36 * hertz(&maxwell()).0;
+    let half_width_m = 1.36 * hertz_m(&maxwell());
     let counts = [200, 400, 800, 1600];
     let (mut rising, mut falling) = (vec![], vec![]);
     for count in counts {
-        let mut engine = springs(&sphere(), half_width_m, count);
+        let mut engine = springs(&ball(), half_width_m, count);
         let errors = half_sine_errors(&mut engine, count / 4);
         rising.push(errors.0);
         falling.push(errors.1);
@@ -299,32 +228,24 @@ fn a_half_sine_on_a_maxwell_body_follows_ting_past_the_maximum_of_the_contact() 
 #[test]
 fn both_engines_follow_the_half_sine_past_the_maximum_of_the_contact() {
     const CELLS: usize = 64;
-    let compliance = maxwell();
-    let (hertz_m, _) = hertz(&compliance);
-    let half_width_m = 1.5 * hertz_m;
-    let times = equal(3.0, 30);
-    let load_n = |s: f64| LOAD_N * s.sin();
-    let mut row = springs(&sphere(), half_width_m, 1600);
-    let exact = follow(&mut row, &compliance, &times, load_n);
-    let mut cells = half_space(&sphere(), half_width_m, CELLS);
-    let found = follow(&mut cells, &compliance, &times, load_n);
-    let largest_m = exact
-        .iter()
-        .fold(0.0_f64, |l, s| l.max(s.solution.approach_m));
+    let half_width_m = 1.5 * hertz_m(&maxwell());
     let cell_m = 2.0 * half_width_m / CELLS as f64;
-    let (mut worst_approach, mut worst_radius) = (0.0_f64, 0.0_f64);
+    let times = equal(3.0, 30);
+    let mut row = springs(&ball(), half_width_m, 1600);
+    let exact = follow(&mut row, &maxwell(), &times, half_sine);
+    let mut cells = half_space(&ball(), half_width_m, CELLS);
+    let found = follow(&mut cells, &maxwell(), &times, half_sine);
+    let largest_m = largest(exact.iter().map(|s| s.solution.approach_m));
     for (exact, found) in exact.iter().zip(&found).skip(1) {
-        let error_m = (found.solution.approach_m - exact.solution.approach_m).abs();
-        worst_approach = worst_approach.max(error_m / largest_m);
-        let radius_m = hertz_m * maxwell_half_sine_cubed_radius(found.time_s).cbrt();
-        let error_m = (found.solution.contact_radius_m - radius_m).abs();
-        worst_radius = worst_radius.max(error_m / cell_m);
+        let time_s = found.time_s;
+        // The same steps, so that the grid alone tells them apart; three times what was seen.
+        let off_m = (found.solution.approach_m - exact.solution.approach_m).abs();
+        below!(off_m / largest_m, 2e-4, "{time_s}");
+        // A quarter of a cell was seen.
+        let radius_m = hertz_m(&maxwell()) * maxwell_half_sine_cubed_radius(time_s).cbrt();
+        let off_m = (found.solution.contact_radius_m - radius_m).abs();
+        below!(off_m / cell_m, 0.5, "{time_s}");
     }
-    println!("approach {worst_approach:e}, radius {worst_radius} cells");
-    // The same steps, so that the grid alone tells them apart; three times what was seen.
-    assert!(worst_approach < 2e-4, "{worst_approach:e}");
-    // Cells are counted: a quarter of a cell was seen.
-    assert!(worst_radius < 0.5, "{worst_radius} cells");
 }
 
 /// A pressure profile, in units of the peak pressure and the contact radius of the first instant.
@@ -335,7 +256,8 @@ struct Profile {
 
 impl Profile {
     fn of(engine: &mut Axisymmetric, sample: &Sample, compliance: &Creep) -> Self {
-        let (hertz_m, hertz_pa) = hertz(compliance);
+        let hertz_m = hertz_m(compliance);
+        let hertz_pa = 1.5 * LOAD_N / (PI * hertz_m * hertz_m);
         let edge_m = sample.solution.contact_radius_m;
         let mut pressures = vec![0.0; engine.nodes() + 1];
         let contact = engine.pressure_profile_pa(&sample.pressure, edge_m, &mut pressures);
@@ -372,7 +294,7 @@ impl Profile {
 fn step_load_profiles(compliance: &Creep, times_s: &[f64]) -> Vec<Profile> {
     let end_s = times_s[times_s.len() - 1];
     let largest_m = step_load_contact_radius_m(RADIUS_M, LOAD_N, compliance, end_s);
-    let mut engine = springs(&sphere(), 1.02 * largest_m, 800);
+    let mut engine = springs(&ball(), 1.02 * largest_m, 800);
     let samples = follow(&mut engine, compliance, &equal(end_s, 500), |_| LOAD_N);
     let wanted = times_s.iter().map(|&time_s| {
         let near = |sample: &&Sample| (sample.time_s - time_s).abs() < 1e-9 * end_s;
@@ -384,52 +306,24 @@ fn step_load_profiles(compliance: &Creep, times_s: &[f64]) -> Vec<Profile> {
 }
 
 #[test]
-fn the_pressure_under_a_step_load_on_a_maxwell_body_hollows_out_as_the_exact_solution_does() {
-    // Time; p(0)/p_H and p(a_H)/p_H computed independently to half a unit of the last digit.
-    let expected = [
-        (0.5, 0.71915, 0.4019),
-        (1.0, 0.52613, 0.4057),
-        (2.0, 0.30629, 0.3157),
-    ];
-    let profiles = step_load_profiles(&maxwell(), &expected.map(|row| row.0));
-    for ((time_s, centre, ring), profile) in expected.into_iter().zip(&profiles) {
-        let (at_centre, at_ring) = (profile.pressures[0], profile.at(1.0));
-        println!("{time_s}: {at_centre} {at_ring} {}", profile.load());
-        assert!(
-            (at_centre - centre).abs() < 1e-5,
-            "{time_s} s: p(0) {at_centre}"
-        );
-        // Where the first contact ended the profile has a vertical tangent, which springs round off.
-        assert!(
-            (at_ring - ring).abs() < 1.5e-4,
-            "{time_s} s: p(a_H) {at_ring}"
-        );
-        // A trapezium rule over two square-root edges.
-        assert!(
-            (profile.load() - 1.0).abs() < 1e-4,
-            "{time_s} s: {}",
-            profile.load()
-        );
-    }
-}
-
-#[test]
-fn the_pressure_under_a_step_load_on_a_zener_body_levels_off_as_the_exact_solution_does() {
-    // Computed independently to half a unit of the last digit.
-    let expected = [(0.2, 0.8870), (0.5, 0.7772), (1.0, 0.6873), (5.0, 0.6300)];
-    let profiles = step_load_profiles(&zener(), &expected.map(|row| row.0));
-    for ((time_s, centre), profile) in expected.into_iter().zip(&profiles) {
-        println!("{time_s}: {} {}", profile.pressures[0], profile.load());
-        assert!(
-            (profile.pressures[0] - centre).abs() < 6e-5,
-            "{time_s} s: {}",
-            profile.pressures[0]
-        );
-        assert!(
-            (profile.load() - 1.0).abs() < 1e-4,
-            "{time_s} s: {}",
-            profile.load()
-        );
+fn the_pressure_under_a_step_load_hollows_out_or_levels_off_as_the_exact_solution_does() {
+    for (compliance, times, within) in [
+        (maxwell(), &[0.5, 1.0, 2.0][..], 1e-5),
+        (zener(), &[0.2, 0.5, 1.0, 5.0], 1e-5),
+    ] {
+        let exact = StepLoad::new(RADIUS_M, LOAD_N, compliance.clone()).unwrap();
+        let hertz_m = hertz_m(&compliance);
+        let peak_pa = exact.pressure_pa(0.0, 0.0);
+        for (&time_s, profile) in times.iter().zip(step_load_profiles(&compliance, times)) {
+            let expected = |r_m| exact.pressure_pa(r_m, time_s) / peak_pa;
+            let at_centre = (profile.pressures[0] - expected(0.0)).abs();
+            below!(at_centre, within, "{time_s} s");
+            // Where the first contact ended the profile has a vertical tangent, which springs round off.
+            let at_ring = (profile.at(1.0) - expected(hertz_m)).abs();
+            below!(at_ring, 1.5e-4, "{time_s} s");
+            // A trapezium rule over two square-root edges.
+            near!(profile.load(), 1.0, 1e-4, "{time_s} s");
+        }
     }
 }
 
@@ -440,50 +334,38 @@ fn maxwell_radii(
     steps: usize,
     load: fn(f64) -> f64,
 ) -> Vec<(f64, f64)> {
-    let compliance = maxwell();
-    let (hertz_m, _) = hertz(&compliance);
-    let samples = follow(engine, &compliance, &equal(end, steps), |s| {
-        LOAD_N * load(s)
-    });
+    let hertz_m = hertz_m(&maxwell());
+    let load_n = |s| LOAD_N * load(s);
+    let samples = follow(engine, &maxwell(), &equal(end, steps), load_n);
+    let samples = samples.iter();
     samples
-        .iter()
         .map(|s| (s.time_s, s.solution.contact_radius_m / hertz_m))
         .collect()
 }
 
 #[test]
 fn under_a_falling_ramp_the_contact_on_a_maxwell_body_still_grows_for_a_while() {
-    let ramp = |s: f64| 1.0 - 0.5 * s;
-    let half_width_m = 1.15 * hertz(&maxwell()).0;
-    let radii = maxwell_radii(&mut springs(&sphere(), half_width_m, 1600), 2.0, 100, ramp);
-    for (s, radius) in &radii {
-        let growing = 1.0 + 0.5 * s - 0.25 * s * s;
-        if *s <= 1.0 {
-            // Lee and Radok while the contact grows. Twice what was seen.
-            assert!((radius.powi(3) - growing).abs() < 5e-5, "s = {s}: {radius}");
-        } else {
-            // From the maximum on the contact shrinks faster than that formula, down to nothing under no load.
-            assert!(radius.powi(3) < growing + 5e-5, "s = {s}: {radius}");
-        }
-    }
-    let largest = radii.iter().fold(0.0_f64, |l, r| l.max(r.1));
-    assert!((largest - 1.25_f64.cbrt()).abs() < 1e-5, "{largest}");
-    assert_eq!(radii[100].1, 0.0);
     const CELLS: usize = 64;
-    let half_width_m = 1.2 * hertz(&maxwell()).0;
-    let cell = 2.4 / CELLS as f64;
-    let found = maxwell_radii(
-        &mut half_space(&sphere(), half_width_m, CELLS),
-        2.0,
-        20,
-        ramp,
-    );
+    let ramp = |s: f64| 1.0 - 0.5 * s;
+    let hertz_m = hertz_m(&maxwell());
+    let mut row = springs(&ball(), 1.15 * hertz_m, 1600);
+    let radii = maxwell_radii(&mut row, 2.0, 100, ramp);
+    for (s, radius) in &radii {
+        // Twice what was seen, while the contact grows and while it shrinks.
+        let exact = maxwell_falling_ramp_cubed_radius(*s);
+        let bound = if *s <= 1.0 { 5e-5 } else { 2e-4 };
+        below!((radius.powi(3) - exact).abs(), bound, "s = {s}");
+    }
+    near!(largest(radii.iter().map(|r| r.1)), 1.25_f64.cbrt(), 1e-5);
+    assert_eq!(radii[100].1, 0.0);
+    let mut cells = half_space(&ball(), 1.2 * hertz_m, CELLS);
+    let found = maxwell_radii(&mut cells, 2.0, 20, ramp);
     for ((s, radius), exact) in found.iter().zip(radii.iter().step_by(5)) {
-        // Cells are counted; steps of a tenth leave far less than that.
-        assert!(
-            (radius - exact.1).abs() < 0.5 * cell,
-            "s = {s}: {radius} {}",
-            exact.1
+        // Steps of a tenth leave far less than half a cell.
+        below!(
+            (radius - exact.1).abs(),
+            0.5 * 2.4 / CELLS as f64,
+            "s = {s}"
         );
     }
 }
@@ -491,8 +373,8 @@ fn under_a_falling_ramp_the_contact_on_a_maxwell_body_still_grows_for_a_while() 
 #[test]
 fn under_a_cubic_load_the_contact_on_a_maxwell_body_shrinks_grows_and_shrinks_again() {
     let cubic = |s: f64| (1.0 + (2.0 - s).powi(3)) / 9.0;
-    let half_width_m = 1.1 * hertz(&maxwell()).0;
-    let radii = maxwell_radii(&mut springs(&sphere(), half_width_m, 3200), 3.0, 300, cubic);
+    let mut row = springs(&ball(), 1.1 * hertz_m(&maxwell()), 3200);
+    let radii = maxwell_radii(&mut row, 3.0, 300, cubic);
     let (first, last) = radii.split_at(200);
     let lowest = first.iter().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
     let highest = last.iter().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
@@ -511,34 +393,4 @@ fn under_a_cubic_load_the_contact_on_a_maxwell_body_shrinks_grows_and_shrinks_ag
     // Computed independently to the digits given.
     assert!((highest.1 - 0.910).abs() < 1e-4, "{highest:?}");
     assert!((highest.0 - 2.52).abs() < 0.015, "{highest:?}");
-}
-
-#[test]
-fn after_unloading_a_maxwell_body_keeps_its_dent_for_ever_and_a_zener_body_forgets_it() {
-    // Unloaded after two times; looked at 1 and 20 times after that. The dent is the displacement at the centre.
-    let dents = |compliance: &Creep| {
-        let half_width_m = 1.1 * step_load_contact_radius_m(RADIUS_M, LOAD_N, compliance, 2.0);
-        let mut engine = half_space(&sphere(), half_width_m, 33);
-        let mut march = March::new(&mut engine, compliance.clone(), TimeRule::Linear);
-        march.jump(Prescribed::LoadN(LOAD_N)).unwrap();
-        march.hold(2.0, Prescribed::LoadN(LOAD_N)).unwrap();
-        let (mut dents, mut last) = (vec![], 0.0);
-        for step_s in [0.0, 1.0, 19.0] {
-            let weights = march.weights(step_s);
-            let solution = march.step(&weights, Prescribed::LoadN(0.0)).unwrap();
-            assert_eq!((solution.load_n, solution.contact_radius_m), (0.0, 0.0));
-            last = weights.compliance_per_pa;
-            dents.push(solution.approach_m);
-        }
-        drop(march);
-        let centre_m = engine.displacement_m(last).unwrap()[33 * 16 + 16];
-        (dents, centre_m)
-    };
-    let (maxwell_dents, left_m) = dents(&maxwell());
-    // Nothing moves a dashpot without a load: a rounding per step.
-    assert!(left_m > 0.0 && relative(maxwell_dents[2], maxwell_dents[0]).abs() < 1e-12);
-    let (zener_dents, left_m) = dents(&zener());
-    // Every displacement decays like exp(-t), 2.1e-9 of it at 20; 3 for the roundings of the convolution.
-    assert!(left_m.abs() < 3.0 * (-20.0_f64).exp() * zener_dents[0]);
-    assert!(zener_dents[1] < zener_dents[0] && zener_dents[2].abs() < 1e-8 * zener_dents[0]);
 }

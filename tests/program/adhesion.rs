@@ -2,7 +2,7 @@
 
 #![cfg(feature = "cli")]
 
-use crate::program::Place;
+use crate::program::{Place, says};
 
 fn sweep(indenter: &str, drive: &str, rest: &str) -> String {
     format!(
@@ -27,16 +27,10 @@ fn a_load_may_be_a_pull_and_the_resolved_file_says_why() {
     let table = run(&sweep(SPHERE, PULL, ONE), "one");
     let resolved = place.text("one/resolved.toml");
     assert!(resolved.contains("[adhesion]\nwork = \"0.05 J/m^2\"\nequilibrium_distance = "));
-    assert!(
-        place
-            .text("one/index.html")
-            .contains("a work of adhesion of 0.05 J/m² (DMT)")
-    );
+    let work = "a work of adhesion of 0.05 J/m² (DMT)";
+    says(&place.text("one/index.html"), &[work]);
     // Tabor's parameter of a tip of 100 nm on a polymer.
-    assert!(
-        table.cells("warnings")[0].contains("tabor-parameter"),
-        "{table:?}"
-    );
+    says(table.cells("warnings")[0], &["tabor-parameter"]);
     assert_eq!(run(&resolved, "two"), table);
     // A larger sphere is attracted more: each value of an axis has its own pull-off load.
     let radii = format!("{ONE}indenter.radius = [\"100 nm\", \"300 nm\"]\n");

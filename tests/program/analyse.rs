@@ -11,7 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::common::pmma_material;
-use crate::program::Place;
+use crate::program::{Place, says};
 use tempfile::TempDir;
 
 /// A record of a sinusoidal load and an approach that lags, with a deterministic noise, a thousandth of the amplitudes.
@@ -74,29 +74,28 @@ fn three() -> (Place, [Loop; 3]) {
     (place, loops)
 }
 
-fn is_narrow(printed: &str) -> bool {
-    let mut lines = printed.lines();
-    lines.all(|line| line.chars().count() <= 80 || line.contains("Results in"))
+/// A loop of 1 Hz.
+fn one_hertz() -> Loop {
+    Loop {
+        hz: 1.0,
+        lag: 0.2,
+        cycles: 22.0,
+    }
 }
 
 #[test]
 fn records_become_the_rows_of_a_sweep_by_ascending_frequency() {
     let (place, mut loops) = three();
-    assert!(is_narrow(&place.done(&format!("{THREE} --out out")).stdout));
+    place.done(&format!("{THREE} --out out")).fits_eighty();
     loops.sort_by(|a, b| a.hz.total_cmp(&b.hz));
     let table = place.table("out/sweep.csv");
     for (k, one) in loops.iter().enumerate() {
-        let [hz, loss, error, lag] = [
-            "frequency_hz",
-            "energy_loss_j",
-            "energy_loss_error_j",
-            "phase_lag_rad",
-        ]
-        .map(|column| table.number(k, column));
-        assert!((hz / one.hz - 1.0).abs() < 1e-4, "{hz}");
-        assert!((loss - one.loss_j()).abs() < error.max(1e-4 * one.loss_j()));
-        assert!(error < 2e-3 * one.loss_j());
-        assert!((lag - one.lag).abs() < 3e-4);
+        let [hz, lag] = table.row(k, ["frequency_hz", "phase_lag_rad"]);
+        let [loss, error] = table.row(k, ["energy_loss_j", "energy_loss_error_j"]);
+        near!(hz, one.hz, 1e-4);
+        below!((loss - one.loss_j()).abs(), error.max(1e-4 * one.loss_j()));
+        below!(error, 2e-3 * one.loss_j());
+        below!((lag - one.lag).abs(), 3e-4);
         let samples = place.table(&format!("out/loops/{k}.csv"));
         assert_eq!(samples.numbers("load_n").len(), 201);
         assert_eq!(place.table(&format!("out/cycles/{k}.csv")).len(), 12);
@@ -113,8 +112,7 @@ fn results_do_not_depend_on_threads_and_those_of_an_earlier_analysis_do_not_stay
         assert_eq!(run.stdout, "");
     }
     for file in ["sweep.csv", "analysis.json", "loops/2.csv", "summary.json"] {
-        let [one, four] = ["one", "four"].map(|out| place.text(&format!("{out}/{file}")));
-        assert_eq!(one, four, "{file}");
+        place.are_same(&["one", "four"], file);
     }
     place.done("analyse loop-0.csv --threads 2 --quiet --out four");
     assert!(place.has("four/loops/0.csv") && !place.has("four/loops/1.csv"));
@@ -124,9 +122,8 @@ fn results_do_not_depend_on_threads_and_those_of_an_earlier_analysis_do_not_stay
 fn a_frequency_that_is_given_is_taken_and_one_that_is_another_is_told() {
     let (place, _) = three();
     let run = |frequency: &str| {
-        place.run(&format!(
-            "analyse loop-0.csv --frequency '{frequency}' --out out"
-        ))
+        let line = format!("analyse loop-0.csv --frequency '{frequency}' --out out");
+        place.run(&line)
     };
     run("5 Hz").ended(0);
     assert_eq!(place.table("out/sweep.csv").numbers("frequency_hz"), [5.0]);
@@ -148,11 +145,7 @@ fn a_record_without_a_loop_is_named_and_one_that_cannot_be_read_stops_before_any
     assert!(table.cells("message")[1].contains("load is the same in all samples"));
     fs::remove_dir_all(place.path("out")).unwrap();
     place.put("flat.csv", "time_s,load,depth_nm\n1,2,3\n");
-    let told = place.refused(analyse);
-    assert!(
-        told.contains("flat.csv:1:8") && told.contains("no unit"),
-        "{told}"
-    );
+    says(&place.refused(analyse), &["flat.csv:1:8", "no unit"]);
     assert!(!place.has("out"));
 }
 
@@ -177,14 +170,10 @@ fn the_records_of_the_repository_are_what_their_program_writes_and_give_back_the
     place.done(&run);
     let table = place.table("out/sweep.csv");
     for (k, loss_j) in losses.into_iter().enumerate() {
-        let [found, error] =
-            ["energy_loss_j", "energy_loss_error_j"].map(|column| table.number(k, column));
+        let [found, error] = table.row(k, ["energy_loss_j", "energy_loss_error_j"]);
         // Four intervals of 95 %, of which one in twenty may miss a little.
-        assert!(
-            (found - loss_j).abs() < 1.5 * error,
-            "{found} {loss_j} {error}"
-        );
-        assert!(error < 0.03 * loss_j);
+        below!((found - loss_j).abs(), 1.5 * error, "{k}");
+        below!(error, 0.03 * loss_j, "{k}");
     }
     assert_eq!(table.cells("drift"), ["linear"; 4]);
 }
@@ -195,15 +184,9 @@ fn a_setup_gives_moduli() {
     let setup = format!("[contact]\npoisson_ratio = 0.38\n{sphere}");
     let place = Place::with("setup.toml", &setup);
     let record = records().join("0.0013-hz.csv");
-    let run = format!(
-        "analyse '{}' --setup setup.toml --out out",
-        record.display()
-    );
-    let printed = place.done(&run).stdout;
-    assert!(
-        printed.contains("without bias") && is_narrow(&printed),
-        "{printed}"
-    );
+    let analyse = format!("analyse '{}' --setup setup.toml", record.display());
+    let run = place.done(&format!("{analyse} --out out")).fits_eighty();
+    run.says(&["without bias"]);
     let table = place.table("out/sweep.csv");
     // What the record was made of.
     let own = pmma_material();
@@ -212,10 +195,7 @@ fn a_setup_gives_moduli() {
         let [value, error] = ["modulus_pa", "modulus_error_pa"]
             .map(|column| table.number(0, &format!("corrected_{kind}_{column}")));
         // The interval, and a part in a hundred for the solid that stands for PMMA.
-        assert!(
-            (value - truth).abs() < error + 0.01 * truth,
-            "{kind}: {value:e} {truth:e} {error:e}"
-        );
+        below!((value - truth).abs(), error + 0.01 * truth, "{kind}");
     }
     assert!(table.number(0, "loss_modulus_bias") < -0.03);
 }
@@ -233,8 +213,8 @@ fn a_folder_of_an_analysis_is_drawn_again_and_no_folder_of_a_sweep_is_overwritte
     fs::remove_dir_all(place.path("computed")).unwrap();
     let read = || ["out/loops.svg", "out/energy-loss.svg"].map(|file| place.text(file));
     let before = read();
-    let kept = place.text("out/analysis.json");
-    assert!(kept.contains("\"angular_rad_per_s\":7.0"), "{kept}");
+    let kept = "\"angular_rad_per_s\":7.0";
+    says(&place.text("out/analysis.json"), &[kept]);
     fs::remove_file(place.path("out/loops.svg")).unwrap();
     place.done("report out --quiet");
     assert_eq!(read(), before);
@@ -242,15 +222,7 @@ fn a_folder_of_an_analysis_is_drawn_again_and_no_folder_of_a_sweep_is_overwritte
     // A plan that is no one's is a file of somebody else; see also folders.rs.
     place.put("sweep/resolved.toml", "");
     let told = place.refused(&format!("{THREE} --against computed --out sweep --quiet"));
-    assert!(told.contains("has not written"), "{told}");
-}
-
-fn one_hertz() -> Loop {
-    Loop {
-        hz: 1.0,
-        lag: 0.2,
-        cycles: 22.0,
-    }
+    says(&told, &["has not written"]);
 }
 
 #[test]
@@ -258,23 +230,15 @@ fn a_quiet_command_still_says_what_has_no_result_and_why() {
     let place = Place::with("empty.csv", "Time (s),Load (mN),Depth (nm)\n");
     place.put("good.csv", one_hertz().text());
     let run = |rest: &str, code: i32| {
-        let run = place
-            .run(&format!("analyse {rest} --quiet --out out"))
-            .ended(code);
+        let run = place.run(&format!("analyse {rest} --quiet --out out"));
         assert_eq!(run.stdout, "");
-        run.stderr
+        run.ended(code).stderr
     };
-    let said = run("empty.csv", 3);
-    assert!(
-        said.contains("empty.csv: failed: 0 samples are too few"),
-        "{said}"
-    );
+    let few = "empty.csv: failed: 0 samples are too few";
+    says(&run("empty.csv", 3), &[few]);
     // The frequency was given, and is not asked for.
     let said = run("good.csv --frequency '10 Hz'", 3);
-    assert!(
-        said.contains("good.csv: failed: no oscillation of 10 Hz"),
-        "{said}"
-    );
+    says(&said, &["good.csv: failed: no oscillation of 10 Hz"]);
     assert!(!said.contains("give the frequency"), "{said}");
     assert_eq!(run("good.csv", 0), "");
     let example = concat!(env!("CARGO_MANIFEST_DIR"), "/sweeps/pmma.toml");
@@ -282,11 +246,8 @@ fn a_quiet_command_still_says_what_has_no_result_and_why() {
         "sweep '{example}' --quiet --no-figures --set cycle.method=march --set cycle.max_cycles=2 \
          --set 'sweep.frequency=[\"1 mHz\"]' --set sweep.refine=false --out sweep"
     ));
-    assert!(
-        run.stderr.contains("not-converged") && run.stdout.is_empty(),
-        "{run:?}"
-    );
-    run.ended(3);
+    assert_eq!(run.stdout, "");
+    says(&run.ended(3).stderr, &["not-converged"]);
 }
 
 #[test]
@@ -309,7 +270,7 @@ fn a_time_that_is_wrong_is_named_at_once() {
     let since = std::time::Instant::now();
     let said = place.ends("analyse late.csv --frequency '1 Hz' --quiet --out out", 3);
     let samples = format!("between samples {} and {last} the time leaps", last - 1);
-    assert!(said.contains(&samples), "{said}");
+    says(&said, &[&samples]);
     assert!(since.elapsed().as_secs() < 20, "{:?}", since.elapsed());
 }
 
@@ -321,7 +282,7 @@ fn a_record_whose_time_descends_is_put_in_order() {
     let descend = ["the times descend from the first sample to the last"];
     place.done("analyse backwards.csv --out out").says(&descend);
     let loss = place.table("out/sweep.csv").number(0, "energy_loss_j");
-    assert!((loss / one_hertz().loss_j() - 1.0).abs() < 2e-3);
+    near!(loss, one_hertz().loss_j(), 2e-3);
 }
 
 #[test]
@@ -329,31 +290,16 @@ fn interrupted_it_ends_at_once_and_writes_nothing() {
     use std::process::{Command, Stdio};
     let folder = TempDir::new().unwrap();
     let (pipe, out) = (folder.path().join("pipe"), folder.path().join("out"));
-    assert!(
-        Command::new("mkfifo")
-            .arg(&pipe)
-            .status()
-            .unwrap()
-            .success()
-    );
-    let mut child = Command::new(assert_cmd::cargo::cargo_bin("contact-dma"))
-        .arg("analyse")
-        .arg(&pipe)
-        .arg("--out")
-        .arg(&out)
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
+    let made = Command::new("mkfifo").arg(&pipe).status();
+    assert!(made.unwrap().success());
+    let mut analyse = Command::new(assert_cmd::cargo::cargo_bin("contact-dma"));
+    analyse.arg("analyse").arg(&pipe).arg("--out").arg(&out);
+    let mut child = analyse.stderr(Stdio::null()).spawn().unwrap();
     // Opens once the program reads, which then waits for the record.
     let writer = fs::OpenOptions::new().write(true).open(&pipe).unwrap();
     let pid = child.id().to_string();
-    assert!(
-        Command::new("kill")
-            .args(["-INT", &pid])
-            .status()
-            .unwrap()
-            .success()
-    );
+    let sent = Command::new("kill").args(["-INT", &pid]).status();
+    assert!(sent.unwrap().success());
     let ended = (0..600).find_map(|_| {
         std::thread::sleep(std::time::Duration::from_millis(50));
         child.try_wait().unwrap()

@@ -7,61 +7,50 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use crate::program::pmma_sweep;
-use contact_dma::input::document::Document;
-use contact_dma::input::sweep_file;
+use crate::plans;
+use crate::program::{Place, files, pmma_sweep};
 use contact_dma::sweep::plan::resolved;
 use contact_dma::sweep::store::provenance::BUILD;
-use tempfile::TempDir;
-
-fn copy(from: &Path, to: &Path) {
-    fs::create_dir_all(to).unwrap();
-    for entry in fs::read_dir(from).unwrap() {
-        let path = entry.unwrap().path();
-        let target = to.join(path.file_name().unwrap());
-        if path.is_dir() {
-            copy(&path, &target);
-        } else {
-            fs::copy(&path, target).unwrap();
-        }
-    }
-}
 
 /// The sources somewhere else, and how to change one of them.
-struct Sources(TempDir);
+struct Sources(Place);
 
 impl Sources {
     fn new() -> Self {
-        let folder = TempDir::new().unwrap();
+        let place = Place::new();
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-        copy(&root.join("src"), &folder.path().join("src"));
-        fs::copy(root.join("Cargo.lock"), folder.path().join("Cargo.lock")).unwrap();
-        Self(folder)
+        for (name, bytes) in files(&root.join("src")) {
+            place.put(&format!("src/{name}"), bytes);
+        }
+        place.put("Cargo.lock", fs::read(root.join("Cargo.lock")).unwrap());
+        Self(place)
     }
 
     fn identity(&self) -> String {
-        let root = self.0.path();
-        build::identity(&root.join("src/core"), &root.join("Cargo.lock")).unwrap()
+        let [core, lock] = ["src/core", "Cargo.lock"].map(|name| self.0.path(name));
+        build::identity(&core, &lock).unwrap()
     }
 
     /// The identity with a file changed; the file is then as before.
-    fn with(&self, name: &str, change: impl Fn(&str) -> String) -> String {
-        let path = self.0.path().join(name);
-        let text = fs::read_to_string(&path).unwrap();
+    fn with(&self, name: &str, change: &dyn Fn(&str) -> String) -> String {
+        let text = self.0.text(name);
         let changed = change(&text);
         assert!(changed != text, "{name}: nothing was changed");
-        fs::write(&path, changed).unwrap();
+        self.0.put(name, changed);
         let identity = self.identity();
-        fs::write(&path, text).unwrap();
+        self.0.put(name, text);
         identity
     }
-}
 
-/// What is before the line of this package's version in a lock file, with another version behind it.
-fn with_version_of<'a>(package: &'a str) -> impl Fn(&str) -> String + 'a {
-    move |lock| {
+    /// The same with other words in place of some.
+    fn replaced(&self, name: &str, from: &str, to: &str) -> String {
+        self.with(name, &|text| text.replace(from, to))
+    }
+
+    /// The same with another version of a package in the lock file.
+    fn with_version_of(&self, package: &str) -> String {
         let line = format!("name = \"{package}\"\nversion = \"");
-        lock.replace(&line, &format!("{line}9"))
+        self.replaced("Cargo.lock", &line, &format!("{line}9"))
     }
 }
 
@@ -76,28 +65,19 @@ fn the_same_sources_have_the_same_identity_wherever_they_lie() {
 fn what_makes_no_number_changes_nothing() {
     let sources = Sources::new();
     let engine = "src/core/contact/axisymmetric.rs";
+    let more = |text: &str| format!("{text}\n#[test]\nfn more() {{}}\n");
+    let constant = |text: &str| format!("{text}// more\nconst A: u8 = 1;\n");
+    let look = "src/core/sweep/plan/figures.rs";
     let same = [
-        sources.with(engine, |text| text.replace('\n', "\r\n")),
-        sources.with(engine, |text| format!("//! More to read.\n\n{text}")),
-        sources.with(engine, |text| {
-            text.replace("    /// Position", "    /// The position")
-        }),
-        sources.with("src/core/history/direct.rs", |text| {
-            format!("{text}\n#[test]\nfn more() {{}}\n")
-        }),
-        sources.with("src/report/quantities.rs", |text| {
-            text.replace("energy loss", "work")
-        }),
-        sources.with("src/cli/sweep.rs", |text| {
-            format!("{text}// more\nconst A: u8 = 1;\n")
-        }),
-        sources.with("src/core/sweep/plan/figures.rs", |text| {
-            text.replace("titles: bool = true", "titles: bool = false")
-        }),
-        sources.with("src/core/sweep/store/error.rs", |text| {
-            text.replace("cannot", "can not")
-        }),
-        sources.with("Cargo.lock", with_version_of("clap")),
+        sources.replaced(engine, "\n", "\r\n"),
+        sources.with(engine, &|text| format!("//! More to read.\n\n{text}")),
+        sources.replaced(engine, "    /// Position", "    /// The position"),
+        sources.with("src/core/history/direct.rs", &more),
+        sources.replaced("src/report/quantities.rs", "energy loss", "work"),
+        sources.with("src/cli/sweep.rs", &constant),
+        sources.replaced(look, "titles: bool = true", "titles: bool = false"),
+        sources.replaced("src/core/sweep/store/error.rs", "cannot", "can not"),
+        sources.with_version_of("clap"),
     ];
     for (which, identity) in same.iter().enumerate() {
         assert_eq!(identity, BUILD, "{which}");
@@ -107,28 +87,17 @@ fn what_makes_no_number_changes_nothing() {
 #[test]
 fn whatever_may_make_another_number_makes_another_identity() {
     let sources = Sources::new();
-    let mut others = vec![
-        sources.with("src/core/contact/axisymmetric.rs", |text| {
-            text.replace("0.5 * (", "0.6 * (")
-        }),
-        sources.with("src/core/quantity.rs", |text| {
-            text.replace("fn parse", "fn parse_it")
-        }),
-        sources.with("src/core/sweep/record/mod.rs", |text| {
-            text.replace("pub steps", "pub the_steps")
-        }),
-        sources.with("src/core/steady/anderson.rs", |text| {
-            text.replace("DEPTH: usize = 8", "DEPTH: usize = 9")
-        }),
-        sources.with("Cargo.lock", with_version_of("rustfft")),
+    let changes = [
+        ("contact/axisymmetric", "0.5 * (", "0.6 * ("),
+        ("quantity", "fn parse", "fn parse_it"),
+        ("sweep/record/mod", "pub steps", "pub the_steps"),
+        ("steady/anderson", "DEPTH: usize = 8", "DEPTH: usize = 9"),
     ];
-    fs::write(
-        sources.0.path().join("src/core/history/more.rs"),
-        "fn f() {}\n",
-    )
-    .unwrap();
-    others.push(sources.identity());
-    others.push(BUILD.to_owned());
+    let changed = |(file, from, to)| sources.replaced(&format!("src/core/{file}.rs"), from, to);
+    let mut others = changes.map(changed).to_vec();
+    others.push(sources.with_version_of("rustfft"));
+    sources.0.put("src/core/history/more.rs", "fn f() {}\n");
+    others.extend([sources.identity(), BUILD.to_owned()]);
     let distinct: BTreeSet<&String> = others.iter().collect();
     assert_eq!(distinct.len(), others.len());
 }
@@ -138,18 +107,13 @@ fn whatever_may_make_another_number_makes_another_identity() {
 fn the_title_and_the_look_of_its_figures_make_no_other_sweep() {
     let text = pmma_sweep("[sweep]\nangular_frequency = [0.01, 0.1]\n");
     let hash_with = |change: &str| {
-        let mut document = Document::parse("sweep.toml", &text).unwrap();
-        document.set(change).unwrap();
-        let plan = sweep_file::plan(&document).unwrap();
+        let plan = plans::try_sweep(&text, &[change]).unwrap();
         resolved::hash(&resolved::resolved_text(&plan))
     };
     let own = hash_with("drive.mean=10 N");
-    for look in [
-        "title=b",
-        "figures.width=90 mm",
-        "figures.titles=false",
-        "figures.axes=normalised",
-    ] {
+    let looks =
+        ["width=90 mm", "titles=false", "axes=normalised"].map(|look| format!("figures.{look}"));
+    for look in looks.iter().map(|look| &**look).chain(["title=b"]) {
         assert_eq!(hash_with(look), own, "{look}");
     }
     assert_ne!(hash_with("drive.mean=11 N"), own);
@@ -158,16 +122,10 @@ fn the_title_and_the_look_of_its_figures_make_no_other_sweep() {
 #[test]
 fn what_an_indenter_is_read_from_may_lie_anywhere() {
     let text = "[indenter]\nshape = \"map\"\nfile = \"/a/b.csv\"\nsha256 = \"12\"\nheight_unit = \"1 m\"\n";
-    let moved = text.replace("/a/b", "/c/d");
-    assert_eq!(resolved::hash(text), resolved::hash(&moved));
-    assert_ne!(
-        resolved::hash(text),
-        resolved::hash(&text.replace("12", "13"))
-    );
+    let same =
+        |text: &str, from, to| resolved::hash(text) == resolved::hash(&text.replace(from, to));
+    assert!(same(text, "/a/b", "/c/d") && !same(text, "12", "13"));
     // A line that only looks like one counts.
     let name = "[material]\nname = \"\"\"\nfile = 1\n\"\"\"\n";
-    assert_ne!(
-        resolved::hash(name),
-        resolved::hash(&name.replace('1', "2"))
-    );
+    assert!(!same(name, "1", "2"));
 }

@@ -1,6 +1,6 @@
 //! Two results compared: the peak that moved is found, what was not compared is said, and nothing compared is no agreement.
 
-use crate::program::{Place, Table};
+use crate::program::{Place, Table, says};
 
 /// Sweeps PMMA, with its slower relaxation time as given (s), around its largest peak.
 fn swept(place: &Place, name: &str, time_s: f64, more: &str) {
@@ -28,6 +28,8 @@ branches = [{{ modulus = "254.776 MPa", time = "8.93 s" }}, {{ modulus = "263.66
 /// Exit code and what was printed.
 fn compared(place: &Place, arguments: &str) -> (i32, String) {
     let run = place.run(&format!("compare {arguments}"));
+    let is_told = |part: &str, of: &str| !arguments.contains(part) || run.stderr.contains(of);
+    assert!(is_told("nothing=1", "no column nothing") && is_told("/no/such", "/no/such"));
     (run.code, run.stdout)
 }
 
@@ -44,10 +46,7 @@ fn a_peak_that_moved_is_found_whatever_is_allowed_of_the_columns() {
         let tolerance = format!("--relative 1 --tolerance {column}=1e-3");
         let (code, text) = with("moved", &tolerance);
         assert_eq!(code, 4, "{text}");
-        assert!(
-            text.contains("moved by -0.") && text.contains(": differs"),
-            "{text}"
-        );
+        says(&text, &["moved by -0.", ": differs"]);
         assert_eq!(with("hardly", &tolerance).0, 0);
     }
     // The columns of the two differ by 1e-5; the peaks alone decide.
@@ -59,6 +58,9 @@ fn a_peak_that_moved_is_found_whatever_is_allowed_of_the_columns() {
         ("hardly", "--peaks", 0),
         // A column with a tolerance of its own is judged too.
         ("hardly", "--peaks 1e-3 --tolerance energy_loss_j=1e-9", 4),
+        ("a", "--relative -1", 2),
+        ("a", "--tolerance nothing=1", 2),
+        ("/no/such", "", 2),
     ] {
         let (found, text) = with(new, peaks);
         assert_eq!(found, code, "{new} {peaks}: {text}");
@@ -94,6 +96,8 @@ fn what_was_not_compared_is_said_and_nothing_compared_is_no_agreement() {
     place.put("head.csv", rows[0]);
     place.put("one.csv", rows[..2].join("\n"));
     place.put("other.csv", [rows[0], rows[3]].join("\n"));
+    place.put("missing.csv", [rows[0], rows[1], rows[3]].join("\n"));
+    let itself = "3 cases in both results";
     let nothing = "nothing was compared, no case is in both.";
     let alone = "peaks: not compared, a/sweep.csv was given without its summary.json";
     for (arguments, code, part) in [
@@ -105,16 +109,17 @@ fn what_was_not_compared_is_said_and_nothing_compared_is_no_agreement() {
         ),
         ("head.csv head.csv", 4, nothing),
         ("one.csv other.csv", 4, nothing),
+        ("a missing.csv", 4, "1 cases missing in the new result"),
+        ("a missing.csv", 4, "ω = 8.000e-3 rad/s"),
         ("a a", 0, "peak at"),
+        ("a a --out drawn", 0, itself),
     ] {
         let (found, text) = compared(&place, arguments);
         assert_eq!(found, code, "{arguments}: {text}");
-        assert!(text.contains(part), "{arguments}: {text}");
-        assert!(
-            arguments != "a a" || !text.contains("not compared"),
-            "{text}"
-        );
+        says(&text, &[part]);
+        assert!(arguments != "a a" || !text.contains("not compared"));
     }
+    place.has_all("drawn", "comparison.svg comparison.png comparison.csv");
 }
 
 #[test]
@@ -135,8 +140,8 @@ fn columns_that_other_steps_leave_unjudged_are_counted() {
     place.put("b.csv", text);
     let (code, text) = compared(&place, "a/sweep.csv b.csv");
     assert_eq!(code, 0, "{text}");
-    assert!(
-        text.contains("3 not judged: other steps or nodes, no error bars"),
-        "{text}"
+    says(
+        &text,
+        &["3 not judged: other steps or nodes, no error bars"],
     );
 }

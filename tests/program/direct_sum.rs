@@ -4,12 +4,12 @@
 
 use std::fs;
 
-use crate::program::{Place, words};
-use contact_dma::material::library;
+use crate::common::{largest, pmma_material};
+use crate::program::{Place, says, words};
 
 /// Creep compliance of PMMA, twenty samples per decade from 0.1 s to 1000 s, off by up to 0.5 % either way.
 fn creep_csv() -> String {
-    let material = library::find("pmma").unwrap().material().unwrap();
+    let material = pmma_material();
     let row = |i: i32| {
         let time_s = 0.1 * 10_f64.powf(f64::from(i) / 20.0);
         // Fractional parts of multiples of the golden ratio: even, and without order.
@@ -73,12 +73,8 @@ fn reported_misfit(printed: &str) -> f64 {
     let printed = words(printed);
     let (_, misfit) = printed.split_once("Misfit relative to the data").unwrap();
     let (before, _) = misfit.split_once("% at most").unwrap();
-    0.01 * before
-        .split_whitespace()
-        .last()
-        .unwrap()
-        .parse::<f64>()
-        .unwrap()
+    let percent = before.split_whitespace().last().unwrap();
+    0.01 * percent.parse::<f64>().unwrap()
 }
 
 const DIRECT: &str = "--set material.table.evaluation=direct";
@@ -88,16 +84,9 @@ fn fit_and_direct_sum_agree_within_what_fit_and_interpolation_leave_open() {
     let place = place();
     let step = "--set 'time.step=1 s'";
     let fitted = simulate(&place, "scenario.toml", "fit", step);
-    let direct = simulate(
-        &place,
-        "scenario.toml",
-        "direct",
-        &format!("{step} {DIRECT}"),
-    );
-    let said = words(&direct);
-    assert!(said.contains("No fit: 81 samples"), "{direct}");
-    assert!(said.contains("by the direct hereditary sum"), "{direct}");
-    assert!(direct.lines().all(|line| line.chars().count() <= 80));
+    let run = format!("simulate scenario.toml --out direct {step} {DIRECT}");
+    let run = place.done(&run).fits_eighty();
+    run.says(&["No fit: 81 samples", "by the direct hereditary sum"]);
     let misfit = reported_misfit(&fitted);
     let integral =
         |out: &str| place.json(&format!("{out}/summary.json"))["hereditary_integral"].take();
@@ -105,20 +94,16 @@ fn fit_and_direct_sum_agree_within_what_fit_and_interpolation_leave_open() {
     assert_eq!(integral("direct"), "direct sum");
     let (a, b) = (history(&place, "fit"), history(&place, "direct"));
     assert_eq!(a.len(), b.len());
-    let largest = |k: usize| a.iter().map(|row| row[k]).fold(0.0, f64::max);
     let apart = |k: usize, end_s: f64| {
         let pairs = a.iter().zip(&b).filter(|(a, _)| a[0] <= end_s);
-        pairs.map(|(a, b)| (a[k] - b[k]).abs()).fold(0.0, f64::max) / largest(k)
+        largest(pairs.map(|(a, b)| (a[k] - b[k]).abs())) / largest(a.iter().map(|row| row[k]))
     };
     let (held, whole, radius) = (apart(1, 100.0), apart(1, 400.0), apart(2, 400.0));
-    println!(
-        "{fitted}\n{direct}\napproach {held:.2e} apart in the hold, {whole:.2e} at all times, radius {radius:.2e}; misfit \
-         {misfit:.2e}"
-    );
     // Under the first load the approach goes with the power 2/3 of the compliance. A load taken off adds its own share of the
     // misfit to that of the load put on. The radius goes with 1/3.
-    assert!(held < misfit && radius < misfit, "{held:e} {radius:e}");
-    assert!(whole < 2.0 * misfit, "{whole:e}");
+    below!(held, misfit);
+    below!(radius, misfit);
+    below!(whole, 2.0 * misfit);
     // They are not the same computation.
     assert!(held > 0.01 * misfit, "{held:e}");
 }
@@ -128,20 +113,16 @@ fn the_resolved_scenario_shows_the_samples_and_gives_the_same_history_again_with
     let place = place();
     simulate(&place, "scenario.toml", "first", DIRECT);
     fs::remove_file(place.path("creep.csv")).unwrap();
-    let resolved = place.text("first/resolved.toml");
-    assert!(
-        resolved.contains("evaluation = \"direct\"\ntimes = [0.1, "),
-        "{resolved}"
-    );
+    let samples = "evaluation = \"direct\"\ntimes = [0.1, ";
+    says(&place.text("first/resolved.toml"), &[samples]);
     simulate(&place, "first/resolved.toml", "second", "");
     for name in ["resolved.toml", "history.csv", "summary.json"] {
-        let [first, second] = ["first", "second"].map(|out| place.text(&format!("{out}/{name}")));
-        assert_eq!(first, second, "{name}");
+        place.are_same(&["first", "second"], name);
     }
     // The same samples, fitted.
     let fit = DIRECT.replace("direct", "fit");
     let fitted = simulate(&place, "first/resolved.toml", "third", &fit);
-    assert!(fitted.contains("Fit of 2 branches"), "{fitted}");
+    says(&fitted, &["Fit of 2 branches"]);
 }
 
 #[test]
@@ -151,12 +132,11 @@ fn steps_chosen_by_the_program_are_as_good_with_samples_as_steps_that_are_four_t
     let short = format!("{DIRECT} --set 'time.step=0.25 s'");
     simulate(&place, "scenario.toml", "short", &short);
     let (chosen, short) = (history(&place, "chosen"), history(&place, "short"));
-    let largest = short.iter().map(|row| row[1]).fold(0.0, f64::max);
+    let largest = largest(short.iter().map(|row| row[1]));
     let mut compared = 0;
     for row in &chosen {
         if let Some(other) = short.iter().rfind(|other| (other[0] - row[0]).abs() < 1e-9) {
-            let off = (row[1] - other[1]).abs() / largest;
-            assert!(off < 2e-4, "{row:?} {other:?}");
+            below!((row[1] - other[1]).abs() / largest, 2e-4, "{row:?}");
             compared += 1;
         }
     }
@@ -174,44 +154,19 @@ fn the_half_space_engine_takes_samples_too() {
     let (a, b) = (history(&place, "springs"), history(&place, "cells"));
     for (a, b) in a.iter().zip(&b) {
         // 32 cells across: the engines are this far apart on a series as well.
-        assert!((a[1] / b[1] - 1.0).abs() < 1e-3, "{a:?} {b:?}");
+        near!(a[1], b[1], 1e-3, "{a:?}");
     }
 }
 
+/// That the sweep refuses the samples themselves: tests/refused.
 #[test]
-fn a_sweep_says_why_it_cannot_take_samples_directly_and_what_to_write() {
+fn a_sweep_that_cannot_take_samples_directly_shows_the_fit_and_takes_that() {
     let place = place();
     let head = SCENARIO.split("[drive]").next().unwrap();
     let head = head.replace("modulus =", "evaluation = \"direct\"\nmodulus =");
     let rest = "[drive]\nmean = 10\namplitude = 5\n[sweep]\nangular_frequency = [0.01]\n[cycle]\nsteps = 20\n";
     place.put("sweep.toml", format!("{head}{rest}"));
-    let told = place.refused("sweep sweep.toml");
-    for part in [
-        "sweep.toml:9:14",
-        "stabilised cycle is found from the memory variables of a series (Prony form)",
-        "evaluation = \"fit\"",
-        "contact-dma simulate",
-    ] {
-        assert!(told.contains(part), "{part} is missing in:\n{told}");
-    }
-    // Looked at, the material is the fit; the sweep itself takes it as well.
     let shown = place.done("material show sweep.toml");
     shown.says(&["Misfit relative to the data"]);
     place.done("sweep sweep.toml --set material.table.evaluation=fit");
-}
-
-#[test]
-fn a_history_too_long_for_the_direct_sum_is_refused_with_advice() {
-    let place = place();
-    let told = place.refused(&format!(
-        "simulate scenario.toml {DIRECT} --set 'time.step=5 ms'"
-    ));
-    for part in [
-        "too many for the direct sum",
-        "longer [time] step",
-        "evaluation = \"fit\"",
-    ] {
-        assert!(told.contains(part), "{told}");
-    }
-    assert!(!place.has("reports"));
 }

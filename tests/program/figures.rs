@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::fs;
 
 use crate::html::between;
-use crate::program::{Place, pmma_sweep};
+use crate::program::{Place, pmma_sweep, says};
 
 const FREQUENCIES: &str = r#"hold = "500 s"
 [sweep]
@@ -89,9 +89,10 @@ fn pictures_have_the_millimetres_and_pixels_asked_for_and_no_other_forms() {
 #[test]
 fn only_the_formats_asked_for_are_there_even_after_others_were() {
     let place = swept("");
-    for name in "loops.svg loops.png loops@2x.png loops.csv loops.caption.txt".split(' ') {
-        assert!(names(&place).contains(name), "{name}");
-    }
+    place.has_all(
+        "out",
+        "loops.svg loops.png loops@2x.png loops.csv loops.caption.txt",
+    );
     sweep_into(&place, "[figures]\nformats = [\"svg\"]\n");
     assert!(!names(&place).iter().any(|name| name.ends_with(".png")));
     assert!(names(&place).contains("loops.svg"));
@@ -126,20 +127,17 @@ fn pdf_has_the_millimetres_asked_for_text_as_text_and_the_same_bytes_on_any_numb
     assert!(text.contains("/FontFile2") && text.contains("/ToUnicode"));
     assert!(!text.contains("Date"), "the same sweep has the same bytes");
     assert!(text.contains("\n% contact-dma ") && text.contains(", sweep sha256 "));
-    let pdfs = || {
+    let ending = |ending: &str| {
         let names = names(&place).into_iter();
-        names
-            .filter(|name| name.ends_with(".pdf"))
-            .collect::<Vec<_>>()
+        let names = names.filter(|name| name.ends_with(ending));
+        names.collect::<Vec<_>>()
     };
+    let pdfs = || ending(".pdf");
     // One for each figure.
-    let captions = names(&place).into_iter();
-    let captions = captions.filter(|name| name.ends_with(".caption.txt"));
-    assert_eq!(pdfs().len(), captions.count());
+    assert_eq!(pdfs().len(), ending(".caption.txt").len());
     place.done("sweep sweep.toml --quiet --threads 1 --out again");
     for name in pdfs() {
-        let [one, other] = ["out", "again"].map(|out| place.bytes(&format!("{out}/{name}")));
-        assert!(one == other, "{name}");
+        place.are_same(&["out", "again"], &name);
     }
     // Another wish takes them away again.
     place.done("report out --quiet --set 'figures.formats=[\"svg\"]'");
@@ -181,10 +179,8 @@ fn another_table_is_the_same_sweep_and_computes_nothing_again() {
     let other =
         "sweep sweep.toml --set 'figures.width=90 mm' --set 'drive.amplitude=4 N' --out out";
     let told = place.refused(other);
-    assert!(
-        told.contains("+ amplitude = \"4 N\"") && !told.contains("width"),
-        "{told}"
-    );
+    says(&told, &["+ amplitude = \"4 N\""]);
+    assert!(!told.contains("width"), "{told}");
 }
 
 #[test]
@@ -205,10 +201,7 @@ fn report_draws_again_as_the_folder_says_or_as_asked() {
     }
     let resolved = place.text("out/resolved.toml");
     let told = place.refused("report --quiet out --set 'drive.amplitude=4 N'");
-    assert!(
-        told.contains("[figures] alone") && told.contains("+ amplitude = \"4 N\""),
-        "{told}"
-    );
+    says(&told, &["[figures] alone", "+ amplitude = \"4 N\""]);
     assert_eq!(place.text("out/resolved.toml"), resolved);
 }
 
@@ -232,14 +225,13 @@ fn normalised_axes_say_so_and_the_caption_gives_the_units() {
     let losses = "energy loss per cycle / W₀δ₀ against angular frequency ω / τ⁻¹";
     assert_eq!(axes(&place, "out/energy-loss.svg"), losses);
     let caption = place.text("out/energy-loss.caption.txt");
-    for part in [
+    let parts = [
         "elastic contact",
         "mean load",
         "W₀ = 10.00 N",
         "τ = 133.9 s",
-    ] {
-        assert!(caption.contains(part), "{caption}");
-    }
+    ];
+    says(&caption, &parts);
     // Data stay in SI units.
     let data = place.text("out/loops.csv");
     assert!(data.starts_with("angular_frequency_rad_per_s,approach_m,load_n\n"));
@@ -266,7 +258,7 @@ fn captions_hold_the_numbers_of_the_data_and_are_the_description_of_the_picture(
     }
     // The cycle is found directly: no rest was computed.
     assert!(!caption.contains("of rest"), "{caption}");
-    for part in [
+    let parts = [
         "Energy loss per cycle",
         "rigid sphere (radius 10 mm)",
         "PMMA",
@@ -275,9 +267,8 @@ fn captions_hold_the_numbers_of_the_data_and_are_the_description_of_the_picture(
         "axisymmetric engine",
         "60 springs",
         "40 time steps",
-    ] {
-        assert!(caption.contains(part), "{part}: {caption}");
-    }
+    ];
+    says(&caption, &parts);
     for name in names(&place) {
         let Some(figure) = name.strip_suffix(".caption.txt") else {
             continue;
@@ -298,24 +289,16 @@ fn histories_materials_and_comparisons_have_captions_too() {
     place.done(&format!("simulate '{example}' --quiet {set} --out history"));
     assert_eq!(side(&place, "history/history.svg", "width"), "180mm");
     assert!(axes(&place, "history/history.svg").contains("load W / W₀ against"));
-    let caption = place.text("history/history.caption.txt");
-    assert!(
-        caption.contains("largest load") && caption.contains("springs"),
-        "{caption}"
-    );
     place.done("material show pmma --out material");
-    assert!(place.text("material/moduli.caption.txt").contains("PMMA"));
-    let caption = place.text("material/relaxation.caption.txt");
-    assert!(
-        caption.contains("1 ks") || caption.contains("1000 s"),
-        "{caption}"
-    );
     place.done("compare out out --out compared");
-    assert!(
-        place
-            .text("compared/comparison.caption.txt")
-            .contains("7 cases")
-    );
+    for (figure, parts) in [
+        ("history/history", &["largest load", "springs"][..]),
+        ("material/moduli", &["PMMA"]),
+        ("material/relaxation", &["1000 s"]),
+        ("compared/comparison", &["7 cases"]),
+    ] {
+        says(&place.text(&format!("{figure}.caption.txt")), parts);
+    }
 }
 
 #[test]
@@ -323,10 +306,7 @@ fn what_has_no_elastic_contact_to_normalise_by_is_refused() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/sweeps/two-asperities.toml");
     let run = format!("simulate '{file}' --set figures.axes=normalised --out out");
     let told = Place::new().refused(&run);
-    assert!(
-        told.contains("no convex body of revolution") && told.contains("command line"),
-        "{told}"
-    );
+    says(&told, &["no convex body of revolution", "command line"]);
 }
 
 #[test]

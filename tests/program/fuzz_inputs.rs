@@ -4,16 +4,14 @@
 #![cfg(feature = "report")]
 
 use std::cell::Cell;
-use std::fs;
 use std::path::Path;
 
 use crate::inputs::{CheckpointFiles, Histories, Records, Table, Tables};
-use contact_dma::input::document::Document;
+use crate::plans;
+use crate::program::files;
 use contact_dma::input::keys;
-use contact_dma::input::sweep_file;
 use contact_dma::report::comparison::{Comparison, SweepTable, Tolerances};
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::plan::resolved::resolved_text;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
@@ -69,22 +67,18 @@ fn assault(seeds: &[&[u8]], check: impl Fn(&[u8])) {
 }
 
 fn assault_with(cases: u32, seeds: &[&[u8]], check: impl Fn(&[u8])) {
-    let strategy = (
-        prop::sample::select((0..seeds.len()).collect::<Vec<_>>()),
-        changes(),
-    );
-    runner(cases)
-        .run(&strategy, |(seed, changes)| {
-            check(&changed(seeds[seed], &changes));
-            Ok(())
-        })
-        .unwrap();
-    runner(cases / 4)
-        .run(&prop::collection::vec(any::<u8>(), 0..400), |bytes| {
-            check(&bytes);
-            Ok(())
-        })
-        .unwrap();
+    let seed = prop::sample::select((0..seeds.len()).collect::<Vec<_>>());
+    let of_seed = |(seed, changes): (usize, Vec<Change>)| {
+        check(&changed(seeds[seed], &changes));
+        Ok(())
+    };
+    runner(cases).run(&(seed, changes()), of_seed).unwrap();
+    let of_bytes = |bytes: Vec<u8>| {
+        check(&bytes);
+        Ok(())
+    };
+    let bytes = prop::collection::vec(any::<u8>(), 0..400);
+    runner(cases / 4).run(&bytes, of_bytes).unwrap();
 }
 
 const SWEEP: &str = r#"title = "a sweep"
@@ -129,14 +123,8 @@ fn a_changed_sweep_file_is_refused_with_a_reason_or_means_what_its_resolved_form
 
 #[test]
 fn quantities_are_finite_or_refused() {
-    let seeds: [&[u8]; 5] = [
-        b"10 mm",
-        b"-1.5e3 N/m^2",
-        b"1e-3 1/MPa",
-        "3 µm".as_bytes(),
-        b"0.5 rad/s",
-    ];
-    assault(&seeds, |bytes| {
+    let seeds = ["10 mm", "-1.5e3 N/m^2", "1e-3 1/MPa", "3 µm", "0.5 rad/s"];
+    assault(&seeds.map(str::as_bytes), |bytes| {
         crate::inputs::quantity(bytes);
     });
 }
@@ -155,12 +143,9 @@ fn height_maps_hold_finite_heights_in_full_rows_or_are_refused() {
 
 #[test]
 fn tables_become_materials_drives_and_indenters_or_are_refused() {
-    let rows: String = (0..12)
-        .map(|k| {
-            let time_s = 10_f64.powf(f64::from(k) / 4.0 - 1.0);
-            format!("{time_s},{}\n", 1e-9 * (2.0 - (-time_s / 5.0).exp()))
-        })
-        .collect();
+    let row = |t: f64| format!("{t},{}\n", 1e-9 * (2.0 - (-t / 5.0).exp()));
+    let times = (0..12).map(|k| 10_f64.powf(f64::from(k) / 4.0 - 1.0));
+    let rows: String = times.map(row).collect();
     let creep = format!("time_s,creep_compliance_per_pa\n{rows}");
     let relaxation = "time_min,relaxation_modulus_mpa\n0.1,2400\n1,2200\n10,2000\n100,1980\n";
     let load = "# recorded\ntime_s,load_n,temperature_c\n0,0,23\n2,1,23.09\n2,2.5,22.90\n9,0,22\n";
@@ -191,17 +176,8 @@ fn tables_become_materials_drives_and_indenters_or_are_refused() {
 #[test]
 fn a_file_of_dynamic_data_is_read_or_refused() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/seeds/dynamic_files");
-    let seeds: Vec<Vec<u8>> = fs::read_dir(folder)
-        .unwrap()
-        .map(|seed| fs::read(seed.unwrap().path()).unwrap())
-        .collect();
-    assert!(seeds.len() > 8);
-    for seed in &seeds {
-        assert!(
-            crate::inputs::dynamic_file(seed),
-            "{}",
-            String::from_utf8_lossy(seed)
-        );
+    for (name, seed) in &files(&folder) {
+        assert!(crate::inputs::dynamic_file(seed), "{name}");
         assault_with(40, &[seed], |bytes| {
             crate::inputs::dynamic_file(bytes);
         });
@@ -217,10 +193,8 @@ fn tables_to_compare_are_compared_or_refused() {
             && let Ok(comparison) = Comparison::of(&table, &table, &Tolerances::default())
         {
             let places = comparison.curve.iter().map(|point| point.place);
-            let finite = places
-                .map(|p| p.angular_frequency_rad_per_s)
-                .all(f64::is_finite);
-            assert!(finite && !comparison.text().is_empty());
+            let mut places = places.map(|place| place.angular_frequency_rad_per_s);
+            assert!(places.all(f64::is_finite) && !comparison.text().is_empty());
             // It differs from itself only where there is nothing to compare.
             assert_eq!(comparison.differs(), comparison.compared == 0);
         }
@@ -276,28 +250,22 @@ fn what_the_fuzzer_has_found_stays_mended() {
     let (tables, records) = (Tables::new(), Records::new());
     let checkpoints = ["direct", "march"].map(CheckpointFiles::new);
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/seeds");
-    let mut tried = 0;
-    for target in fs::read_dir(folder).unwrap() {
-        let target = target.unwrap().path();
-        for seed in fs::read_dir(&target).unwrap() {
-            let seed = seed.unwrap().path();
-            println!("{}", seed.display());
-            let bytes = fs::read(seed).unwrap();
-            match target.file_name().unwrap().to_str().unwrap() {
-                "sweep_files" => crate::inputs::sweep_file(&bytes),
-                "scenarios" => crate::inputs::scenario_file(&bytes),
-                "quantities" => crate::inputs::quantity(&bytes),
-                "height_maps" => crate::inputs::height_map(&bytes),
-                "tables" => tables.check_any(&bytes),
-                "dynamic_files" => crate::inputs::dynamic_file(&bytes),
-                "records" => records.bytes(&bytes) | records.packed(&bytes),
-                "checkpoints" => crate::inputs::check_any_checkpoint(&checkpoints, &bytes),
-                other => panic!("no target is called {other}"),
-            };
-            tried += 1;
-        }
+    let seeds = files(&folder);
+    assert!(!seeds.is_empty());
+    for (name, bytes) in &seeds {
+        println!("{name}");
+        match name.split_once('/').unwrap().0 {
+            "sweep_files" => crate::inputs::sweep_file(bytes),
+            "scenarios" => crate::inputs::scenario_file(bytes),
+            "quantities" => crate::inputs::quantity(bytes),
+            "height_maps" => crate::inputs::height_map(bytes),
+            "tables" => tables.check_any(bytes),
+            "dynamic_files" => crate::inputs::dynamic_file(bytes),
+            "records" => records.bytes(bytes) | records.packed(bytes),
+            "checkpoints" => crate::inputs::check_any_checkpoint(&checkpoints, bytes),
+            other => panic!("no target is called {other}"),
+        };
     }
-    assert!(tried > 20);
 }
 
 /// A valid sweep, by a few random numbers.
@@ -339,25 +307,15 @@ fn valid() -> impl Strategy<Value = String> {
 #[test]
 fn every_valid_sweep_resolves_to_itself_and_splits_into_shards_without_loss() {
     use contact_dma::sweep::share::shard::{self, Shard};
-    runner(200)
-        .run(&(valid(), 1..9_usize), |(text, parts)| {
-            let plan = |text: &str| {
-                let document = Document::parse("valid.toml", text).unwrap();
-                sweep_file::plan(&document)
-            };
-            let first = plan(&text).ok().unwrap();
-            let resolved = resolved_text(&first);
-            let second = plan(&resolved).ok().unwrap();
-            prop_assert_eq!(&resolved_text(&second), &resolved);
-            let setup = Setup::new(first).unwrap();
-            let cases = setup.plan().cases();
-            let mut split: Vec<usize> = (1..=parts)
-                .flat_map(|k| shard::cases(&setup, Shard::new(k, parts).unwrap()))
-                .map(|case| case.index)
-                .collect();
-            split.sort_unstable();
-            prop_assert_eq!(split, (0..cases.len()).collect::<Vec<_>>());
-            Ok(())
-        })
-        .unwrap();
+    let is_whole = |(text, parts): (String, usize)| {
+        let plan = plans::sweep(&text);
+        plans::again(&plan);
+        let setup = Setup::new(plan).unwrap();
+        let shards = (1..=parts).flat_map(|k| shard::cases(&setup, Shard::new(k, parts).unwrap()));
+        let mut split: Vec<usize> = shards.map(|case| case.index).collect();
+        split.sort_unstable();
+        prop_assert_eq!(split, (0..setup.plan().cases().len()).collect::<Vec<_>>());
+        Ok(())
+    };
+    runner(200).run(&(valid(), 1..9_usize), is_whole).unwrap();
 }

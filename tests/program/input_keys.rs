@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use crate::program::{pmma_sweep, program};
+use crate::program::{below, pmma_sweep, program};
 use crate::refused;
 use contact_dma::identify;
 use contact_dma::input::document::Document;
@@ -75,25 +75,9 @@ fn problems(kind: FileKind, text: &str) -> String {
     errors.collect::<Vec<_>>().join("\n")
 }
 
-/// All TOML files below a folder.
-fn below(folder: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().path());
-    let found = entries.flat_map(|path| match path.is_dir() {
-        true => below(&path),
-        false => vec![path],
-    });
-    let mut found: Vec<_> = found
-        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
-        .collect();
-    found.sort();
-    found
-}
-
 #[test]
 fn every_example_names_its_schema_and_validates() {
-    let all = below(&root().join("sweeps"));
+    let all = below(&root().join("sweeps"), "toml");
     assert!(all.len() > 25);
     for path in all.iter().filter(|path| !path.ends_with("claims.toml")) {
         let text = fs::read_to_string(path).unwrap();
@@ -155,7 +139,8 @@ fn files() -> Vec<(FileKind, String)> {
         };
         (kind, fs::read_to_string(&path).unwrap())
     };
-    let mut files: Vec<(FileKind, String)> = below(&accepted()).into_iter().map(of).collect();
+    let mut files: Vec<(FileKind, String)> =
+        below(&accepted(), "toml").into_iter().map(of).collect();
     files.extend(files.iter().flat_map(over_every_number).collect::<Vec<_>>());
     files
 }

@@ -7,15 +7,15 @@ mod one_history;
 #[path = "../../examples/sweep_with_peaks.rs"]
 mod sweep_with_peaks;
 
-use crate::common::pmma_material as pmma;
-use crate::program::pmma_sweep;
+use crate::common::{pmma_material as pmma, run_case, with};
+use crate::plans;
+use crate::program::{pmma_sweep, says};
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use contact_dma::input::document::Document;
-use contact_dma::input::sweep_file;
 use contact_dma::prelude::*;
+use contact_dma::simulation::HistoryRow;
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::resolved::resolved_text;
 use contact_dma::sweep::record::Status;
@@ -43,8 +43,7 @@ fn sweep() -> Sweep {
 #[test]
 fn a_sweep_from_values_in_memory_is_that_of_a_file_in_a_folder_to_the_last_bit() {
     let folder = tempfile::TempDir::new().unwrap();
-    let plan =
-        sweep_file::plan(&Document::parse("sweep.toml", &pmma_sweep(REST)).unwrap()).unwrap();
+    let plan = plans::sweep(&pmma_sweep(REST));
     let store = Store::open(folder.path(), &resolved_text(&plan), false).unwrap();
     let setup = Setup::new(plan).unwrap();
     let never = AtomicBool::new(false);
@@ -77,14 +76,8 @@ fn an_archive_in_memory_keeps_what_was_solved() {
 
 #[test]
 fn values_that_cannot_be_are_refused_where_they_are_given() {
-    for hz in [
-        vec![],
-        vec![-1.0],
-        vec![0.0],
-        vec![f64::NAN],
-        vec![1.0, 1.0],
-    ] {
-        assert!(sweep().frequencies_hz(hz.clone()).is_err(), "{hz:?}");
+    for hz in [&[][..], &[-1.0], &[0.0], &[f64::NAN], &[1.0, 1.0]] {
+        assert!(sweep().frequencies_hz(hz.to_vec()).is_err(), "{hz:?}");
     }
     assert!(sweep().steps(0).is_err());
     assert!(sweep().springs(0).is_err());
@@ -96,20 +89,14 @@ fn values_that_cannot_be_are_refused_where_they_are_given() {
     }
     assert!(sweep().case_at_hz(-1.0).is_err());
     let refused = sweep().solve().unwrap_err().to_string();
-    assert!(refused.contains("no frequency"), "{refused}");
+    says(&refused, &["no frequency"]);
     // Plans have public fields, and are checked too.
     let mut plan = sweep().frequencies_hz([1.0]).unwrap().into_plan();
     plan.cycle.steps = 0;
     let refused = Setup::new(plan.clone()).err().unwrap().to_string();
-    assert!(refused.contains("cycle.steps = 0"), "{refused}");
+    says(&refused, &["cycle.steps = 0"]);
     plan.cycle.steps = 8;
-    let case = contact_dma::sweep::plan::Case {
-        index: 0,
-        angular_frequency_rad_per_s: -1.0,
-        condition: plan.base.clone(),
-    };
-    let setup = Setup::new(plan).unwrap();
-    let record = setup.run(&case, &AtomicBool::new(false)).unwrap();
+    let record = run_case(&plan, -1.0);
     assert_eq!(record.status, Status::Failed);
     assert!(record.message.unwrap().contains("-1 rad/s"));
 }
@@ -123,14 +110,10 @@ fn a_history_with_values_that_cannot_be_is_refused() {
     let drive = SegmentedDrive::new(Control::Load, vec![ramp]).unwrap();
     let plan = ScenarioPlan::new(pmma(), Arc::new(Sphere::new(0.01).unwrap()), drive);
     for step_s in [0.0, -1.0, f64::NAN] {
-        let plan = ScenarioPlan {
-            step_s: Some(step_s),
-            ..plan.clone()
-        };
-        assert!(Simulation::new(plan).is_err(), "{step_s}");
+        let wrong = with(plan.clone(), |plan| plan.step_s = Some(step_s));
+        assert!(Simulation::new(wrong).is_err(), "{step_s}");
     }
-    let mut coarse = plan.clone();
-    coarse.solver.springs = 1;
+    let coarse = with(plan.clone(), |plan| plan.solver.springs = 1);
     assert!(Simulation::new(coarse).is_err());
     assert!(Simulation::new(plan).is_ok());
 }
@@ -156,20 +139,15 @@ fn the_example_of_a_sweep_finds_the_peak_and_writes_a_row_per_frequency() {
     let table = String::from_utf8(table).unwrap();
     assert_eq!(table.lines().count(), 1 + 17);
     sweep_with_peaks::main().unwrap();
-    assert!(
-        table
-            .lines()
-            .all(|row| row.split(',').all(|cell| !cell.is_empty()))
-    );
+    let mut cells = table.lines().flat_map(|row| row.split(','));
+    assert!(cells.all(|cell| !cell.is_empty()));
 }
 
 #[test]
 fn the_example_of_a_history_creeps_under_load_and_recovers_without() {
     let rows = one_history::outcome().unwrap().rows;
-    let at = |time_s: f64| {
-        let row = rows.iter().find(|row| (row.time_s - time_s).abs() < 1e-9);
-        row.unwrap()
-    };
+    let is_at = |row: &&HistoryRow, time_s: f64| (row.time_s - time_s).abs() < 1e-9;
+    let at = |time_s| rows.iter().find(|row| is_at(row, time_s)).unwrap();
     assert!(at(101.0).approach_m > at(1.0).approach_m);
     assert_eq!(at(202.0).contact_radius_m, 0.0);
     assert_eq!(at(202.0).approach_m, None);

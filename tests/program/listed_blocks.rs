@@ -2,17 +2,10 @@
 
 #![cfg(feature = "cli")]
 
-use std::sync::atomic::AtomicBool;
-
-use crate::program::Place;
+use crate::plans;
+use crate::program::{Place, says};
 use contact_dma::engine::EngineKind;
-use contact_dma::input::diagnostic::Styling;
-use contact_dma::input::document::Document;
-use contact_dma::input::sweep_file;
-use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::SweepPlan;
-use contact_dma::sweep::plan::resolved::resolved_text;
-use contact_dma::sweep::record::CaseResult;
 
 /// What all sweeps of this file have in common; `[sweep]` is open at its end.
 const COMMON: &str = r#"
@@ -78,45 +71,26 @@ fn listed(block: &str, all: &[(&str, &str)]) -> String {
     all.iter().map(one).collect()
 }
 
-fn read(text: &str) -> Result<SweepPlan, String> {
-    let document = Document::parse("several.toml", text).unwrap();
-    sweep_file::plan(&document).map_err(|why| why.render(Styling::Plain))
-}
-
-/// Results of every case, with their error bars.
-fn results(plan: SweepPlan) -> Vec<CaseResult> {
-    let setup = Setup::new(plan).unwrap();
-    let cases = setup.plan().cases().into_iter();
-    let result = |case| {
-        let record = setup.run(&case, &AtomicBool::new(false)).unwrap();
-        let result = record.result.unwrap();
-        assert!(result.errors.is_some());
-        result
-    };
-    cases.map(result).collect()
-}
-
 /// Holds a sweep to the separate ones that it is made of, and so what its resolved text gives.
 fn assert_is_all_of(text: &str, separate: &[String]) {
-    let expected: Vec<CaseResult> = (separate.iter())
-        .flat_map(|text| results(read(text).unwrap()))
-        .collect();
-    let plan = read(text).unwrap();
-    let resolved = resolved_text(&plan);
-    assert!(results(plan) == expected, "{text}");
-    let again = read(&resolved).unwrap();
-    assert_eq!(resolved_text(&again), resolved);
-    assert!(results(again) == expected, "{resolved}");
+    let results = |plan: &SweepPlan| plans::results(plan.clone());
+    let expected = separate
+        .iter()
+        .flat_map(|text| results(&plans::sweep(text)));
+    let expected: Vec<_> = expected.collect();
+    let plan = plans::sweep(text);
+    assert!(results(&plan) == expected, "{text}");
+    assert!(results(&plans::again(&plan)) == expected, "{text}");
 }
 
 #[test]
 fn the_cases_are_those_of_every_material_under_every_indenter() {
     let indenters = &INDENTERS[..2];
-    let text = format!(
-        "{COMMON}{}{}",
+    let lists = [
         listed("material", &MATERIALS),
-        listed("indenter", indenters)
-    );
+        listed("indenter", indenters),
+    ];
+    let text = format!("{COMMON}{}", lists.concat());
     let separate = MATERIALS.iter().flat_map(|material| {
         let under = |indenter: &(&str, &str)| {
             let (material, indenter) = (alone("material", *material), alone("indenter", *indenter));
@@ -146,25 +120,16 @@ fn numbers_vary_beside_a_list_all_combined_or_in_pairs() {
         ("small", INDENTERS[0].1),
         ("large", "shape = \"sphere\"\nradius = \"20 mm\"\n"),
     ];
-    let pairs = format!(
-        "{COMMON}pairs = true\n\"drive.amplitude\" = [0.7, 0.2]\n{}{}",
-        alone("material", MATERIALS[0]),
-        listed("indenter", &balls)
-    );
+    let pmma = alone("material", MATERIALS[0]);
+    let list = listed("indenter", &balls);
+    let pairs = format!("{COMMON}pairs = true\n\"drive.amplitude\" = [0.7, 0.2]\n{pmma}{list}");
     let under = |(amplitude, ball): (&str, (&str, &str))| {
         let common = COMMON.replace("0.5 N", amplitude);
-        format!(
-            "{common}{}{}",
-            alone("material", MATERIALS[0]),
-            alone("indenter", ball)
-        )
+        format!("{common}{pmma}{}", alone("indenter", ball))
     };
-    assert_is_all_of(
-        &pairs,
-        &[("0.2 N", balls[1]), ("0.7 N", balls[0])].map(under),
-    );
-    let plan = read(&pairs).unwrap();
-    let names = plan.axes.unwrap().over[0].names.clone();
+    let separate = [("0.2 N", balls[1]), ("0.7 N", balls[0])].map(under);
+    assert_is_all_of(&pairs, &separate);
+    let names = plans::sweep(&pairs).axes.unwrap().over[0].names.clone();
     assert_eq!(names.to_vec(), ["large", "small"]);
 }
 
@@ -173,7 +138,7 @@ fn where_one_indenter_needs_cells_all_are_on_cells() {
     let pmma = alone("material", MATERIALS[0]);
     let lenses = [INDENTERS[0], INDENTERS[2]];
     let text = format!("{COMMON}{pmma}{}", listed("indenter", &lenses));
-    assert_eq!(read(&text).unwrap().solver.engine, EngineKind::HalfSpace);
+    assert_eq!(plans::sweep(&text).solver.engine, EngineKind::HalfSpace);
     let on_cells = COMMON.replace("[solver]", "[solver]\nengine = \"half-space\"");
     let under = |indenter| format!("{on_cells}{pmma}{}", alone("indenter", indenter));
     assert_is_all_of(&text, &lenses.map(under));
@@ -196,7 +161,7 @@ fn tables_figures_and_comparisons_go_by_the_names() {
     let table = place.table("one/sweep.csv");
     assert_eq!(table.cells("material"), [pmma.0, pmma.0, dry.0, dry.0]);
     let caption = place.text("one/energy-loss.caption.txt");
-    assert!(caption.contains("2 curves, one per material"), "{caption}");
+    says(&caption, &["2 curves, one per material"]);
     // Names have no order to draw along.
     assert!(!place.has("one/loss-map.svg") && !place.has("one/peaks.svg"));
     let same = place.done("compare one other");

@@ -1,5 +1,8 @@
 //! What the program and the library answer: input and its messages, outputs, figures, pages, guides, the rules of the code.
 
+#[macro_use]
+#[path = "../common/near.rs"]
+mod near;
 #[path = "../common/mod.rs"]
 mod common;
 #[path = "../common/page.rs"]
@@ -40,6 +43,7 @@ mod names_and_figures;
 mod page;
 mod paths;
 mod periodic;
+mod plans;
 mod redrawn;
 mod refined_sweep;
 mod refused;

@@ -81,12 +81,3 @@ fn an_angle_is_told_in_degrees_everywhere() {
     assert!(caption.contains("-30° to 10°"), "{caption}");
     assert!(!(printed + &caption).contains("0.5236"));
 }
-
-#[test]
-fn a_material_that_the_library_does_not_have_is_answered_with_those_it_has() {
-    let told = Place::new().refused("material show pvc");
-    assert!(
-        told.contains("The library has ") && told.contains("pvb"),
-        "{told}"
-    );
-}

@@ -4,7 +4,7 @@
 #![cfg(feature = "cli")]
 
 use crate::html::{assert_stands_alone, between, data, nesting_problems, unescaped};
-use crate::program::{Place, SVG};
+use crate::program::{Place, SVG, says};
 use serde_json::Value;
 
 /// A quick sweep; frequencies and title as told.
@@ -54,46 +54,25 @@ fn a_page_holds_the_table_the_cycles_and_the_sweep_file_of_its_folder() {
     assert!(page.contains(summary["sweep_hash"].as_str().unwrap()));
     for case in data["cases"].as_array().unwrap() {
         let samples = place.table(&format!("out/loops/{}.csv", case["index"]));
-        let columns = [
-            "time_s",
-            "load_n",
-            "approach_m",
-            "contact_radius_m",
-            "peak_pressure_pa",
-        ];
-        let numbers = |name: &str| case[name].as_array().unwrap();
-        // 200 steps a cycle: every second sample is on the page.
-        assert_eq!(numbers("time_s").len(), 101);
-        for name in columns {
-            let samples = samples.cells(name);
-            for (k, shown) in numbers(name).iter().enumerate() {
-                assert_eq!(
-                    shown.as_f64().unwrap(),
-                    rounded(samples[2 * k]),
-                    "{name} {k}"
-                );
-            }
+        let columns = "time_s load_n approach_m contact_radius_m peak_pressure_pa";
+        for name in columns.split(' ') {
+            // 200 steps a cycle: every second sample is on the page.
+            let samples = samples.cells(name).into_iter().step_by(2).map(rounded);
+            let samples: Vec<f64> = samples.collect();
+            assert_eq!(samples.len(), 101);
+            assert_eq!(numbers(&case[name]), samples, "{name}");
         }
         holds_the_surface(&place, case);
     }
     let resolved = place.text("out/resolved.toml");
     assert_eq!(shown_file(&page), resolved);
-    let link = between(
-        &page,
-        "download=\"resolved.toml\" href=\"data:text/plain;charset=utf-8,",
-        "\"",
-    );
-    let mut bytes = Vec::new();
-    let mut rest = link.as_bytes();
-    while let Some((&first, after)) = rest.split_first() {
-        if first == b'%' {
-            let hexadecimal = std::str::from_utf8(&after[..2]).unwrap();
-            bytes.push(u8::from_str_radix(hexadecimal, 16).unwrap());
-            rest = &after[2..];
-        } else {
-            bytes.push(first);
-            rest = after;
-        }
+    let from = "download=\"resolved.toml\" href=\"data:text/plain;charset=utf-8,";
+    let link = between(&page, from, "\"");
+    let mut parts = link.split('%');
+    let mut bytes = parts.next().unwrap().as_bytes().to_vec();
+    for part in parts {
+        bytes.push(u8::from_str_radix(&part[..2], 16).unwrap());
+        bytes.extend_from_slice(&part.as_bytes()[2..]);
     }
     assert_eq!(String::from_utf8(bytes).unwrap(), resolved);
 }
@@ -119,32 +98,21 @@ fn holds_the_surface(place: &Place, case: &Value) {
     let pressures = rows("pressures");
     let (instants, line) = (&case["pressure"]["instants"], &case["pressure"]["lines"][0]);
     assert_eq!(line["along"], "r");
-    let names = [
-        "greatest load",
-        "mean load falling",
-        "least load",
-        "mean load rising",
-    ];
-    for (k, name) in names.into_iter().enumerate() {
+    let names = "greatest load|mean load falling|least load|mean load rising";
+    for (k, name) in names.split('|').enumerate() {
         assert_eq!(instants[k]["name"], name);
         let rows: Vec<_> = pressures.iter().filter(|row| row[0] == name).collect();
         assert_eq!(instants[k]["time_s"], rounded(&rows[0][1]));
-        let column = |at: usize| {
-            rows.iter()
-                .map(|row| rounded(&row[at]))
-                .collect::<Vec<f64>>()
-        };
+        let column = |at: usize| -> Vec<f64> { rows.iter().map(|row| rounded(&row[at])).collect() };
         assert_eq!(numbers(&line["position_m"][k]), column(6), "{name}");
         assert_eq!(numbers(&line["pressure_pa"][k]), column(7), "{name}");
     }
-    let work: Vec<(f64, f64)> = rows("work")
-        .iter()
+    let work = rows("work");
+    let work: Vec<_> = (work.iter())
         .map(|row| (rounded(&row[0]), rounded(&row[1])))
         .collect();
-    let shown = numbers(&case["work"]["position_m"])
-        .into_iter()
-        .zip(numbers(&case["work"]["density_j_per_m2"]));
-    let shown: Vec<(f64, f64)> = shown.collect();
+    let [places, density] = ["position_m", "density_j_per_m2"].map(|k| numbers(&case["work"][k]));
+    let shown: Vec<_> = places.into_iter().zip(density).collect();
     assert_eq!((shown.first(), shown.last()), (work.first(), work.last()));
     assert!(shown.iter().all(|point| work.contains(point)));
 }
@@ -157,9 +125,9 @@ fn a_title_that_is_code_is_shown_as_text() {
     assert_eq!(page.matches("</script").count(), 2);
     assert!(!page.contains("<!-- {"));
     assert!(!page.contains("<b>"));
-    assert!(page.contains(
-        "&lt;script&gt;alert(&quot;x&quot;)&lt;/script&gt;&lt;!-- {{data}} &amp; &lt;b&gt;"
-    ));
+    let escaped =
+        "&lt;script&gt;alert(&quot;x&quot;)&lt;/script&gt;&lt;!-- {{data}} &amp; &lt;b&gt;";
+    says(&page, &[escaped]);
     assert_eq!(nesting_problems(&page), Vec::<String>::new());
     assert_eq!(data(&page)["kind"], "sweep");
 }
@@ -215,14 +183,13 @@ fn a_page_of_a_history_holds_its_signals_profiles_and_fields() {
 
 #[test]
 fn materials_and_fits_have_pages_with_the_block_that_gives_them_again() {
-    let table: String = (0..40)
-        .map(|k| 10_f64.powf(-1.0 + 0.1 * f64::from(k)))
-        .map(|t| format!("{t:e},{:e}\n", 1e-9 * (2.0 - (-t / 5.0).exp())))
-        .collect();
-    let place = Place::with(
-        "creep.csv",
-        &format!("time_s,creep_compliance_per_pa\n{table}"),
-    );
+    let row = |k| {
+        let t = 10_f64.powf(-1.0 + 0.1 * f64::from(k));
+        format!("{t:e},{:e}\n", 1e-9 * (2.0 - (-t / 5.0).exp()))
+    };
+    let rows: String = (0..40).map(row).collect();
+    let table = format!("time_s,creep_compliance_per_pa\n{rows}");
+    let place = Place::with("creep.csv", &table);
     let fit =
         "material fit creep.csv --quantity creep --modulus shear --poisson-ratio 0.4 --out fit";
     for (line, out, curves) in [
@@ -243,10 +210,8 @@ fn compared(sweeps: [(&str, usize); 2], more: &str) -> (String, bool, Place) {
     let place = Place::new();
     for (k, (frequencies, steps)) in sweeps.into_iter().enumerate() {
         let steps = format!("[cycle]\nsteps = {steps}\n");
-        place.put(
-            &format!("{k}.toml"),
-            sweep_file("\"a <b>\"", frequencies, &steps),
-        );
+        let file = sweep_file("\"a <b>\"", frequencies, &steps);
+        place.put(&format!("{k}.toml"), file);
         place.done(&format!("sweep {k}.toml --quiet --no-figures --out {k}"));
     }
     let code = place.run(&format!("compare 0 1 {more} --out out")).code;
@@ -269,13 +234,9 @@ fn a_page_of_a_comparison_says_the_verdict_and_holds_both_results() {
         let table = place.table(&format!("{k}/sweep.csv"));
         for column in data["columns"].as_array().unwrap() {
             let name = column["name"].as_str().unwrap();
-            for (cell, value) in table
-                .found(name)
-                .into_iter()
-                .zip(column[side].as_array().unwrap())
-            {
-                assert_eq!(cell, value.as_f64(), "{side} {name}");
-            }
+            let values = column[side].as_array().unwrap().iter();
+            let values: Vec<_> = values.map(Value::as_f64).collect();
+            assert_eq!(table.found(name), values, "{side} {name}");
         }
         let summary = place.json(&format!("{k}/summary.json"));
         assert!(page.contains(summary["sweep_hash"].as_str().unwrap()));
@@ -291,25 +252,19 @@ fn a_page_of_a_comparison_names_what_differs() {
     let (page, same, _) = compared(sweeps, "--tolerance dissipated_j=1e-9");
     assert!(!same);
     assert_stands_alone(&page);
-    for said in [
+    let parts = [
         "<strong>The results differ.</strong>",
         "<li>1 case is missing in the new result</li>",
         "<li>1 case is only in the new result</li>",
         "<li>dissipated_j differs in 1 of 1 cases, at most by ",
         "<h3>Missing in the new result: 1</h3><ul><li>ω = 4.000e-3 rad/s (mean 10, amplitude 5)</li>",
         "dissipated_j 10⁻⁹.",
-    ] {
-        assert!(page.contains(said), "{said}");
-    }
+    ];
+    says(&page, &parts);
     let loss = &data(&page)["columns"][0];
     assert_eq!(loss["name"], "energy_loss_j");
-    let absent: Vec<bool> = loss["new"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(Value::is_null)
-        .collect();
-    assert_eq!(absent, [true, false, false]);
+    let absent = loss["new"].as_array().unwrap().iter().map(Value::is_null);
+    assert_eq!(absent.collect::<Vec<_>>(), [true, false, false]);
 }
 
 #[test]

@@ -5,7 +5,7 @@
 
 use std::fs;
 
-use crate::program::Place;
+use crate::program::{Place, says};
 
 /// The keys that name files: the flag, and what the file says.
 const KEYS: [(&str, &str); 3] = [
@@ -60,9 +60,8 @@ fn project() -> Place {
 /// Runs the scenario with these keys set.
 fn simulate(flags: &[&str]) -> String {
     let run = "simulate project/scenario.toml --quiet --force --no-figures --out out".to_owned();
-    flags
-        .iter()
-        .fold(run, |run, flag| format!("{run} --set '{flag}'"))
+    let flags = flags.iter().map(|flag| format!(" --set '{flag}'"));
+    run + &flags.collect::<String>()
 }
 
 #[test]
@@ -77,8 +76,10 @@ fn names_in_a_file_start_from_its_folder_and_names_in_a_flag_from_the_working_fo
         fs::rename(&there, &away).unwrap();
         place.done(&simulate(&[flag]));
         let refused = place.refused(&simulate(&[]));
-        assert!(refused.contains(&in_file), "{refused}");
-        assert!(refused.contains("the folder of the file it is written in"));
+        says(
+            &refused,
+            &[&in_file, "the folder of the file it is written in"],
+        );
         fs::rename(&away, &there).unwrap();
     }
     fs::remove_dir_all(place.path("project/data")).unwrap();
@@ -95,8 +96,8 @@ fn a_missing_file_named_in_a_flag_is_told_with_the_folder_it_was_looked_for_in()
         let mut parts = flag.split(['=', '"']);
         let name = parts.find(|part| part.starts_with("flag/")).unwrap();
         let refused = place.refused(&simulate(&[flag]));
-        assert!(refused.contains("a path in a flag starts from the working folder"));
-        assert!(refused.contains(&format!("`{name}`")), "{refused}");
+        let where_from = "a path in a flag starts from the working folder";
+        says(&refused, &[where_from, &format!("`{name}`")]);
         assert!(!refused.contains("project/flag"), "{refused}");
     }
 }
@@ -132,5 +133,5 @@ fn data_lie_beside_a_link_to_a_file_or_beside_the_file() {
     write_data(&place, "links/data");
     place.put("links/data/load.csv", "time_s,load_n\n0,two\n");
     let refused = place.refused(run);
-    assert!(refused.contains("links/data/load.csv:2:3"), "{refused}");
+    says(&refused, &["links/data/load.csv:2:3"]);
 }

@@ -2,7 +2,7 @@
 
 #![cfg(feature = "cli")]
 
-use crate::program::Place;
+use crate::program::{Place, says};
 
 const ROUGH: &str = "shape = \"rough\"\ncells = 32\nspacing = \"2 um\"\nhurst_exponent = 0.8\nrms_height = \"50 nm\"\n\
                      cut_off_wavelength = \"8 um\"\nseed = 3\nedge = \"periodic\"";
@@ -35,31 +35,21 @@ fn a_mean_pressure_is_the_load_over_the_area_of_a_period() {
     let load = "mean = \"0.1 N\"\namplitude = \"0.05 N\"";
     // A patch of 64 by 64 um.
     let area_m2 = (32.0 * 2e-6) * (32.0 * 2e-6);
-    let pressure = format!(
-        "control = \"pressure\"\nmean = {:?}\namplitude = {:?}",
-        0.1 / area_m2,
-        0.05 / area_m2
-    );
+    let [mean, amplitude] = [0.1 / area_m2, 0.05 / area_m2];
+    let pressure = format!("control = \"pressure\"\nmean = {mean:?}\namplitude = {amplitude:?}");
     let text = sweep(ROUGH, "");
-    let by_load = place.swept(&text).number(0, "energy_loss_j");
-    let by_pressure = place.swept(&text.replace(load, &pressure));
-    let by_pressure = by_pressure.number(0, "energy_loss_j");
-    assert!(
-        (by_pressure / by_load - 1.0).abs() < 1e-12,
-        "{by_pressure} {by_load}"
-    );
+    let loss_j = |text: &str| place.swept(text).number(0, "energy_loss_j");
+    let by_load = loss_j(&text);
+    let by_pressure = loss_j(&text.replace(load, &pressure));
+    near!(by_pressure, by_load, 1e-12);
     // The resolved file tells the load, and is the same sweep again.
     let resolved = place.text("out/resolved.toml");
-    assert!(resolved.contains("control = \"load\""), "{resolved}");
-    assert_eq!(
-        place.swept(&resolved).number(0, "energy_loss_j"),
-        by_pressure
-    );
+    says(&resolved, &["control = \"load\""]);
+    assert_eq!(loss_j(&resolved), by_pressure);
     // As an axis too.
     let axis = format!("{ONE}\ndrive.mean = [\"20 MPa\", \"30 MPa\"]");
     let over = place.swept(&text.replace(load, &pressure).replace(ONE, &axis));
-    let mean_n = over.number(0, "drive_mean");
-    assert!((mean_n / (20e6 * area_m2) - 1.0).abs() < 1e-12, "{mean_n}");
+    near!(over.number(0, "drive_mean"), 20e6 * area_m2, 1e-12);
 }
 
 #[test]
@@ -93,9 +83,6 @@ fn every_kind_of_segment_may_be_a_mean_pressure() {
     assert!(by_load.len() == by_pressure.len() && by_load.len() > 40);
     for (load, pressure) in by_load.iter().zip(&by_pressure) {
         // Rounding of the loads, through the tolerance of an instant.
-        assert!(
-            (load - pressure).abs() < 1e-6 * load.abs() + 1e-15,
-            "{load:e} {pressure:e}"
-        );
+        below!((load - pressure).abs(), 1e-6 * load.abs() + 1e-15);
     }
 }
