@@ -92,8 +92,7 @@ fn a_case_holds_the_memory_predicted_whatever_material_and_engine() {
     let sweep = |material, indenter: Arc<dyn Indenter>, mean: f64| {
         let drive = HarmonicDrive::load(mean, 0.5 * mean).unwrap();
         let mut plan = SweepPlan::new(material, indenter, drive);
-        plan.angular_frequencies_rad_per_s = vec![0.1];
-        plan.cycle.steps = 16;
+        (plan.angular_frequencies_rad_per_s, plan.cycle.steps) = (vec![0.1], 16);
         plan.cycle.error_bars = false;
         plan
     };
@@ -102,8 +101,7 @@ fn a_case_holds_the_memory_predicted_whatever_material_and_engine() {
     // Off the origin there is no quarter to take.
     let offset = || Arc::new(Shifted::new(sphere(), 1.37e-5, 7.1e-6).unwrap()) as Arc<dyn Indenter>;
     let cells = |mut plan: SweepPlan, cells| {
-        plan.solver.engine = EngineKind::HalfSpace;
-        plan.solver.cells = cells;
+        (plan.solver.engine, plan.solver.cells) = (EngineKind::HalfSpace, cells);
         plan
     };
     let mut plans = vec![

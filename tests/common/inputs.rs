@@ -267,24 +267,7 @@ pub struct Folder {
     case: Case,
 }
 
-const TINY: &str = r#"title = "tiny"
-[material]
-library = "pmma"
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-[drive]
-mean = "10 N"
-amplitude = "5 N"
-[sweep]
-angular_frequency = ["0.01 rad/s", "0.1 rad/s"]
-[cycle]
-steps = 8
-max_cycles = 8
-error_bars = false
-[solver]
-springs = 16
-"#;
+const TINY: &str = include_str!("../inputs/tiny.toml");
 
 impl Folder {
     /// `method` is "direct" or "march".
@@ -503,20 +486,7 @@ pub struct Histories {
     simulations: Vec<Simulation>,
 }
 
-const HISTORY: &str = r#"title = "tiny"
-[material]
-library = "pmma"
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-[drive]
-segments = [{ kind = "ramp", to = "5 N", duration = "6 s" }]
-[time]
-step = "1 s"
-[output]
-profiles_at = ["1 s", "5 s"]
-fields_at = ["2 s"]
-"#;
+const HISTORY: &str = include_str!("../inputs/tiny-history.toml");
 
 impl Histories {
     pub fn new() -> Self {

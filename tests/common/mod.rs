@@ -10,17 +10,19 @@ pub mod solids;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use contact_dma::drive::HarmonicDrive;
+use contact_dma::drive::{HarmonicDrive, Segment};
 use contact_dma::engine::EngineKind;
 use contact_dma::indenter::{Cone, FlatPunch, Indenter, Sphere};
 use contact_dma::material::{
     Compressibility, Creep, CreepBranch, Material, ModulusKind, Relaxation, RelaxationBranch,
     classical, library,
 };
+use contact_dma::reference::steady::HarmonicContact;
 use contact_dma::simulation::{Simulation, SimulationEnd, SimulationOutcome, scenario};
 use contact_dma::sweep::Sweep;
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::{Case, SweepPlan};
+use contact_dma::sweep::record::error_bars::Quantity;
 use contact_dma::sweep::record::{CaseRecord, CaseResult, Status};
 
 // Materials.
@@ -108,8 +110,7 @@ pub fn sweep_plan(
 ) -> SweepPlan {
     let drive = HarmonicDrive::load(mean_n, amplitude_n).unwrap();
     let mut plan = SweepPlan::new(material, indenter, drive);
-    plan.title = "integration test".into();
-    plan.angular_frequencies_rad_per_s = vec![1.0];
+    (plan.title, plan.angular_frequencies_rad_per_s) = ("integration test".into(), vec![1.0]);
     plan.cycle.error_bars = false;
     plan
 }
@@ -177,8 +178,53 @@ pub fn result_of(record: CaseRecord) -> CaseResult {
 /// The energy loss (J) of a case.
 #[track_caller]
 pub fn loss_j(plan: &SweepPlan, angular_frequency_rad_per_s: f64) -> f64 {
-    let result = result(plan, angular_frequency_rad_per_s);
-    result.analysis.energy_loss_j
+    result(plan, angular_frequency_rad_per_s).loss_j()
+}
+
+/// What tests ask of a result most often.
+pub trait Asked {
+    /// The energy loss (J), and its error bar.
+    fn loss_j(&self) -> f64;
+
+    fn bar_j(&self) -> f64 {
+        self.bar(Quantity::EnergyLoss)
+    }
+
+    /// The error bar of a quantity that has one.
+    fn bar(&self, quantity: Quantity) -> f64;
+}
+
+impl Asked for CaseResult {
+    fn loss_j(&self) -> f64 {
+        self.analysis.energy_loss_j
+    }
+
+    fn bar(&self, quantity: Quantity) -> f64 {
+        self.errors.as_ref().unwrap().of(quantity).unwrap()
+    }
+}
+
+/// A contact under a sinusoidal load of these (N), at an angular frequency.
+pub fn harmonic(
+    (mean_n, amplitude_n): (f64, f64),
+    angular_frequency_rad_per_s: f64,
+    contact_compliance: &Creep,
+) -> HarmonicContact<'_> {
+    HarmonicContact {
+        mean_n,
+        amplitude_n,
+        angular_frequency_rad_per_s,
+        contact_compliance,
+    }
+}
+
+/// Segments of a drive.
+pub fn step(to: f64, duration_s: f64) -> Segment {
+    Segment::Step { to, duration_s }
+}
+
+pub fn ramp(to: f64, duration_s: f64) -> Segment {
+    Segment::Ramp { to, duration_s }
 }
 
 // Histories.

@@ -31,17 +31,7 @@ pub fn write(folder: impl AsRef<Path>, name: &str, text: &str) -> String {
 
 /// A sweep file: PMMA under a sphere of 10 mm, 10 N with 5 N about it, and the rest as given, from `[sweep]` on.
 pub fn pmma_sweep(rest: &str) -> String {
-    let question = r#"title = "PMMA under a sphere"
-[material]
-library = "pmma"
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-[drive]
-mean = "10 N"
-amplitude = "5 N"
-"#;
-    format!("{question}{rest}")
+    include_str!("../inputs/pmma.toml").to_owned() + rest
 }
 
 /// Every file below a folder with its bytes.
@@ -82,6 +72,21 @@ impl Place {
         let place = Self::new();
         place.put(name, text);
         place
+    }
+
+    /// A new one with these files of tests/inputs.
+    pub fn lent(names: &str) -> Self {
+        let place = Self::new();
+        place.lend(names);
+        place
+    }
+
+    /// Copies files of tests/inputs.
+    pub fn lend(&self, names: &str) {
+        let inputs = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/inputs");
+        for name in names.split(' ') {
+            self.put(name, fs::read(inputs.join(name)).unwrap());
+        }
     }
 
     pub fn path(&self, name: &str) -> PathBuf {

@@ -1,5 +1,7 @@
 //! Runs that are killed, interrupted, resumed and shared. On their own, since they wait for moments that heavy tests would shift.
 
+#![cfg(all(unix, feature = "cli"))]
+
 #[path = "../common/kills.rs"]
 mod kills;
 #[path = "../common/program.rs"]

@@ -1,7 +1,5 @@
 //! A folder has one plan: of different sweeps and scenarios that meet in it one goes on and the others are refused.
 
-#![cfg(feature = "cli")]
-
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::Read;

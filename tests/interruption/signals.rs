@@ -1,7 +1,5 @@
 //! Signals: every command ends at once with what is finished kept, unless whoever started it wants them ignored.
 
-#![cfg(all(unix, feature = "cli"))]
-
 use std::path::Path;
 use std::process::{Child, Command as Process, Stdio};
 use std::time::{Duration, Instant};

@@ -1,7 +1,5 @@
 //! What a single history survives: it goes on from its checkpoint, and ends as if undisturbed, bit for bit.
 
-#![cfg(feature = "cli")]
-
 use std::fs;
 use std::path::Path;
 use std::process::Child;
@@ -14,70 +12,13 @@ use crate::kills::{
 use crate::program::{Place, Run, says};
 
 /// Contact on cells that opens and closes, jumps, and is asked for surfaces early and late.
-const CELLS: &str = r#"title = "cells"
-[material]
-library = "pmma"
-[indenter]
-shape = "ellipsoid"
-radius_x = "10 mm"
-radius_y = "20 mm"
-[drive]
-segments = [
-    { kind = "step", to = "10 N", duration = "20 s" },
-    { kind = "ramp", to = "0 N", duration = "5 s" },
-    { kind = "sine", mean = "5 N", amplitude = "4 N", angular_frequency = "0.5 rad/s", cycles = 40 },
-]
-[time]
-step = "0.2 s"
-[output]
-profiles_at = ["10 s", "1 s", "100 s"]
-fields_at = ["2 s", "200 s"]
-[solver]
-cells = 32
-"#;
+const CELLS: &str = include_str!("../inputs/opens-and-closes.toml");
 
 /// A fluid, whose flow is remembered too, on springs.
-const FLUID: &str = r#"title = "fluid"
-[material]
-poisson_ratio = 0.5
-[material.maxwell]
-modulus = "1 MPa"
-time = "100 s"
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-[drive]
-segments = [{ kind = "sine", mean = "1 N", amplitude = "1 N", angular_frequency = "0.5 rad/s", phase = "270 deg", cycles = 200 }]
-[time]
-step = "0.1 s"
-[output]
-profiles_at = ["10 s", "1500 s"]
-fields_at = ["3 s"]
-field_cells = 16
-"#;
+const FLUID: &str = include_str!("../inputs/fluid.toml");
 
 /// The whole past, summed at every step.
-const DIRECT: &str = r#"title = "direct"
-[material]
-poisson_ratio = 0.4
-[material.table]
-times = [0.1, 1, 10, 100, 1000]
-values = ["0.40 1/GPa", "0.41 1/GPa", "0.43 1/GPa", "0.47 1/GPa", "0.5 1/GPa"]
-quantity = "creep"
-modulus = "longitudinal"
-evaluation = "direct"
-[indenter]
-shape = "cone"
-half_angle = "80 deg"
-[drive]
-segments = [{ kind = "sine", mean = "2 N", amplitude = "1 N", angular_frequency = "0.5 rad/s", cycles = 12 }]
-[time]
-step = "0.1 s"
-[output]
-profiles_at = ["10 s"]
-[solver]
-springs = 64
-"#;
+const DIRECT: &str = include_str!("../inputs/direct-sum.toml");
 
 /// A folder with a history.
 fn of(text: &str) -> Place {

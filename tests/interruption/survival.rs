@@ -1,7 +1,5 @@
 //! What a sweep survives, and how parts of one come together: every end result is that of an undisturbed run, bit for bit.
 
-#![cfg(feature = "cli")]
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command as Process, Stdio};
@@ -157,15 +155,11 @@ fn records_of_another_build_are_computed_again_by_a_sweep_and_shown_by_a_report(
     assert_eq!(segments::read(&out), records);
     // One result is that of one build.
     let merge = place.ends("merge out --out merged", 1);
-    says(
-        &merge,
-        &[of_another, "1 of 60 cases are in none of the parts"],
-    );
+    let missing = "1 of 60 cases are in none of the parts";
+    says(&merge, &[of_another, missing]);
     let again = sweep(&place, "").ended(0).stderr;
-    says(
-        &again,
-        &["59 of 60 cases were already done", of_another, "again"],
-    );
+    let done = "59 of 60 cases were already done";
+    says(&again, &[done, of_another, "again"]);
     let mut own = segments::read(&out);
     own.retain(|record| *record != records[5]);
     segments::replace(&out, &own);
@@ -368,10 +362,8 @@ fn a_second_process_that_computes_the_same_sweep_is_refused_and_the_first_goes_o
     wait_for("no case was finished", || segments::count(&out) > 2);
     for more in ["", "--shard 1/2"] {
         let refused = sweep(&place, more).ended(2).stderr;
-        says(
-            &refused,
-            &["the same sweep is computed there", "--shard 1/2"],
-        );
+        let parts = ["the same sweep is computed there", "--shard 1/2"];
+        says(&refused, &parts);
     }
     assert_eq!(first.wait().unwrap().code(), Some(0));
     sweep(&place, "--quiet").ended(0);
@@ -459,10 +451,8 @@ fn shards_in_folders_of_their_own_merge_to_the_result_of_one_process() {
         assert!(place.has(&format!("part-{k}/run-{k}-of-3.json")));
     }
     let few = place.ends("merge part-1 part-3 --out out --quiet", 1);
-    says(
-        &few,
-        &["4 of 12 cases are in none of the parts", "case 1: ω = "],
-    );
+    let missing = "4 of 12 cases are in none of the parts";
+    says(&few, &[missing, "case 1: ω = "]);
     place.done("merge part-1 part-2 part-3 --out out --quiet");
     assert_same(&place.path("out"), &place.path("whole"));
     place.done("sweep sweep.toml --quiet --shard 1/3 --set cycle.steps=48 --out part-4");

@@ -62,7 +62,7 @@ fn radius_and_approach_are_those_of_hertz_with_the_attraction_down_to_the_pull_o
         let least_n = load_n.iter().copied().fold(f64::INFINITY, f64::min);
         assert!((least_n + part * PULL_OFF_N).abs() < 1e-3 * PULL_OFF_N);
         assert_eq!(result.contact_duty.part, 1.0);
-        assert_eq!(result.analysis.energy_loss_j, 0.0);
+        assert_eq!(result.loss_j(), 0.0);
     }
 }
 
@@ -80,18 +80,12 @@ fn the_loop_is_that_of_the_load_and_the_attraction_together() {
     assert!((other.load_mean_n - one.load_mean_n - PULL_OFF_N).abs() < 1e-12 * PULL_OFF_N);
     assert!((attracted.approach_m.maximum / pressed.approach_m.maximum - 1.0).abs() < 1e-12);
     // The attraction is constant and dissipates nothing.
-    let bar_j = |result: &CaseResult| {
-        let errors = result.errors.as_ref().unwrap();
-        errors.of(Quantity::EnergyLoss).unwrap()
-    };
-    below!(
-        (attracted.dissipated_j() - one.energy_loss_j).abs(),
-        bar_j(&attracted)
-    );
+    let off_j = attracted.dissipated_j() - attracted.loss_j();
+    below!(off_j.abs(), attracted.bar_j());
     let cells = sweep(zener_material(), (mean_n, amplitude_n)).cells(64);
     let cells = at_one(cells.unwrap().attracted(WORK).unwrap());
-    let apart_j = (cells.analysis.energy_loss_j - one.energy_loss_j).abs();
-    below!(apart_j, bar_j(&attracted) + bar_j(&cells));
+    let apart_j = (cells.loss_j() - attracted.loss_j()).abs();
+    below!(apart_j, attracted.bar_j() + cells.bar_j());
     assert!(attracted.tabor_parameter.is_some() && pressed.tabor_parameter.is_none());
 }
 
@@ -127,16 +121,12 @@ fn attracted(material: Material, segments: Vec<Segment>) -> SimulationOutcome {
     simulated(plan)
 }
 
-fn ramp(to: f64) -> Segment {
-    Segment::Ramp {
-        to,
-        duration_s: 2.0,
-    }
-}
-
 #[test]
 fn a_history_is_that_of_hertz_with_the_attraction_from_first_touch_to_pull_off() {
-    let outcome = attracted(elastic(), vec![ramp(PULL_OFF_N), ramp(-PULL_OFF_N)]);
+    let outcome = attracted(
+        elastic(),
+        vec![ramp(PULL_OFF_N, 2.0), ramp(-PULL_OFF_N, 2.0)],
+    );
     for row in &outcome.rows {
         assert_hertz(row.load_n, row.contact_radius_m, row.approach_m, PULL_OFF_N);
     }
@@ -147,7 +137,7 @@ fn a_history_is_that_of_hertz_with_the_attraction_from_first_touch_to_pull_off()
     assert!((last.load_n + PULL_OFF_N).abs() < 1e-14 * PULL_OFF_N);
     assert_eq!(last.contact_radius_m, 0.0);
     assert!(last.approach_m.unwrap() < 1e-5 * hertz(PULL_OFF_N).approach_m());
-    let further = history(vec![ramp(PULL_OFF_N), ramp(-1.01 * PULL_OFF_N)]);
+    let further = history(vec![ramp(PULL_OFF_N, 2.0), ramp(-1.01 * PULL_OFF_N, 2.0)]);
     let refused = further.unwrap_err().to_string();
     assert!(refused.contains("comes off the surface at"), "{refused}");
 }
@@ -168,11 +158,7 @@ fn cycles_of_a_history_with_attraction_are_those_of_a_sweep() {
     let own = sweep(material(), (mean, amplitude)).without_error_bars();
     let own = at_one(own.springs(800).unwrap().attracted(WORK).unwrap());
     // Both take 200 steps of a second-order rule a cycle; twelve cycles after a solid of one time have settled.
-    near!(
-        last.analysis.energy_loss_j,
-        own.analysis.energy_loss_j,
-        1e-4
-    );
+    near!(last.analysis.energy_loss_j, own.loss_j(), 1e-4);
     let off_n = last.analysis.load_mean_n - own.analysis.load_mean_n;
     below!(off_n.abs(), 1e-6 * PULL_OFF_N);
 }

@@ -60,11 +60,7 @@ fn a_ring_off_the_axis_is_found_under_approach_control() {
 }
 
 fn pressed(shape: Arc<dyn Indenter>, approach_m: f64, cells: usize) -> SimulationOutcome {
-    let ramp = Segment::Ramp {
-        to: approach_m,
-        duration_s: 1.0,
-    };
-    let drive = SegmentedDrive::new(Control::Approach, vec![ramp]).unwrap();
+    let drive = SegmentedDrive::new(Control::Approach, vec![ramp(approach_m, 1.0)]).unwrap();
     let mut plan = ScenarioPlan::new(pmma_material(), shape, drive);
     plan.step_s = Some(0.1);
     (plan.solver.engine, plan.solver.cells) = (EngineKind::HalfSpace, cells);
@@ -108,13 +104,9 @@ fn moduli_of_a_contact_of_any_shape_are_the_materials_at_small_amplitude() {
         // By the area, today's definition for a disc, a sphere is right to the error of its radius, 1/40 of a cell in 40.
         // By the stiffness of the cells themselves what is left are the tolerances and the steps, 0.2 % in E''.
         let allowed = if by_area == 1.0 { 3e-3 } else { 1e-3 };
-        near!(
-            found.storage_modulus_pa.unwrap(),
-            exact.re,
-            allowed,
-            "{by_area}"
-        );
-        near!(found.loss_modulus_pa.unwrap(), exact.im, 5e-3, "{by_area}");
+        let [storage, loss] = [found.storage_modulus_pa, found.loss_modulus_pa].map(Option::unwrap);
+        near!(storage, exact.re, allowed, "{by_area}");
+        near!(loss, exact.im, 5e-3, "{by_area}");
     }
 }
 

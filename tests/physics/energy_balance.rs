@@ -12,8 +12,7 @@ fn the_dissipation_of_the_branches_closes_with_the_loop_at_second_order_in_the_s
             let steps = [100, 200, 400, 800];
             let imbalance = steps.map(|steps| {
                 let mut plan = pmma_plan(sphere(0.01), amplitude_n);
-                plan.cycle.steps = steps;
-                plan.cycle.tolerance = 1e-10;
+                (plan.cycle.steps, plan.cycle.tolerance) = (steps, 1e-10);
                 plan.solver.springs = 1600;
                 result(&plan, omega).energy_imbalance().unwrap()
             });
@@ -27,8 +26,7 @@ fn the_dissipation_of_the_branches_closes_with_the_loop_at_second_order_in_the_s
 #[test]
 fn with_refined_steps_the_balance_closes_to_a_millionth() {
     let mut plan = pmma_plan(sphere(0.01), 5.0);
-    plan.cycle.steps = 4000;
-    plan.cycle.tolerance = 1e-10;
+    (plan.cycle.steps, plan.cycle.tolerance) = (4000, 1e-10);
     for omega in [0.001, 0.0084, 0.1, 1.0] {
         let imbalance = result(&plan, omega).energy_imbalance().unwrap();
         below!(imbalance.abs(), 1e-6, "{omega} rad/s");
@@ -39,9 +37,7 @@ fn with_refined_steps_the_balance_closes_to_a_millionth() {
 fn the_balance_closes_on_cells_as_it_does_on_springs() {
     let imbalance = |engine| {
         let mut plan = pmma_plan(sphere(0.01), 5.0);
-        plan.solver.engine = engine;
-        plan.solver.cells = 32;
-        plan.cycle.steps = 100;
+        (plan.solver.engine, plan.solver.cells, plan.cycle.steps) = (engine, 32, 100);
         plan.cycle.tolerance = 1e-8;
         let found = result(&plan, 0.0084);
         (found.energy_imbalance().unwrap(), found)
@@ -61,8 +57,7 @@ fn the_balance_closes_on_cells_as_it_does_on_springs() {
 fn the_work_over_the_surface_adds_up_to_the_loss() {
     for engine in [EngineKind::Axisymmetric, EngineKind::HalfSpace] {
         let mut plan = pmma_plan(sphere(0.01), 5.0);
-        plan.solver.engine = engine;
-        plan.solver.cells = 48;
+        (plan.solver.engine, plan.solver.cells) = (engine, 48);
         let found = result(&plan, 0.0084);
         let (total_j, tolerance) = match &found.cycle.surface_loss {
             SurfaceLoss::Radial {
@@ -84,12 +79,8 @@ fn the_work_over_the_surface_adds_up_to_the_loss() {
                 (sum * cells.spacing_x_m * cells.spacing_y_m, 1e-6)
             }
         };
-        near!(
-            total_j,
-            found.analysis.polygon_loss_j,
-            tolerance,
-            "{engine:?}"
-        );
+        let polygon_j = found.analysis.polygon_loss_j;
+        near!(total_j, polygon_j, tolerance, "{engine:?}");
     }
 }
 
@@ -97,8 +88,7 @@ fn the_work_over_the_surface_adds_up_to_the_loss() {
 fn the_loss_falls_as_one_over_the_frequency_far_above_and_rises_with_it_far_below() {
     let loss = |omega: f64| {
         let mut plan = pmma_plan(sphere(0.01), 5.0);
-        plan.cycle.steps = 400;
-        plan.cycle.tolerance = 1e-6;
+        (plan.cycle.steps, plan.cycle.tolerance) = (400, 1e-6);
         loss_j(&plan, omega)
     };
     let exponent = |omega: f64| (loss(2.0 * omega) / loss(omega)).log2();

@@ -38,10 +38,8 @@ fn solved(
     error_bars: bool,
 ) -> Option<CaseResult> {
     let mut plan = plan.clone();
-    plan.cycle.steps = steps;
-    plan.cycle.tolerance = tolerance;
-    plan.cycle.error_bars = error_bars;
-    plan.solver.springs = springs;
+    (plan.cycle.steps, plan.cycle.tolerance) = (steps, tolerance);
+    (plan.cycle.error_bars, plan.solver.springs) = (error_bars, springs);
     let record = run_case(&plan, omega);
     let message = record.message.as_deref();
     let disc = message.is_none_or(|m| !m.contains("disc"));

@@ -60,9 +60,8 @@ fn the_loss_of_a_fractional_model_is_in_its_bar_all_over_the_band() {
         let plan = with_bars(given.plan());
         for omega in given.frequencies() {
             let result = result(&plan, omega);
-            let bar_j = result.errors.unwrap().of(Quantity::EnergyLoss).unwrap();
-            let exact_j = given.exact_loss_j(omega);
-            let off_j = (result.analysis.energy_loss_j - exact_j).abs();
+            let (bar_j, exact_j) = (result.bar_j(), given.exact_loss_j(omega));
+            let off_j = (result.loss_j() - exact_j).abs();
             assert!(off_j <= bar_j, "{omega}: {off_j:e}, bar {bar_j:e}");
             // The bar is that of the series and of the cycle, and not of anything far larger.
             below!(bar_j / exact_j, given.accuracy + 1e-3, "{omega}");
@@ -104,7 +103,7 @@ fn a_fractional_indenter_brings_the_error_of_its_series_along() {
     let bar = |plan: &SweepPlan| {
         let result = result(plan, 1e4);
         let bar = result.errors.as_ref().unwrap().bar(Quantity::EnergyLoss);
-        bar.unwrap().material / result.analysis.energy_loss_j
+        bar.unwrap().material / result.loss_j()
     };
     let body = bar(&plan);
     let indenter = plan.base.contact.material.as_ref().clone();

@@ -66,8 +66,7 @@ impl With {
         plan.solver = self.solver();
         plan.contact.material.indenter_material = self.indenter_material;
         (plan.contact.layer, plan.contact.adhesion) = (self.layer, self.adhesion);
-        plan.branches = Some(2);
-        plan.cycle = cycle;
+        (plan.branches, plan.cycle) = (Some(2), cycle);
         plan
     }
 }
@@ -132,8 +131,7 @@ fn an_indenter_that_yields_as_much_as_the_body_is_taken_out() {
         // The tolerance of the cycles of the model, 1e-6, reaches the moduli a hundredfold; the histories of the model have its steps.
         below!(off(&found(&plan)), 2e-3, "{name}");
         let mut rigid = plan;
-        rigid.contact.material.indenter_material = None;
-        rigid.branches = None;
+        (rigid.contact.material.indenter_material, rigid.branches) = (None, None);
         let missed = identify(&rigid, &AtomicBool::new(false)).map_or(1.0, |found| off(&found));
         assert!(missed > 0.1, "{name}: {missed:e}");
     }

@@ -25,10 +25,6 @@ fn random_series(random: &mut Random) -> Relaxation {
     series_at(random, times, (-0.7, 0.5))
 }
 
-fn ramp(to: f64, duration_s: f64) -> Segment {
-    Segment::Ramp { to, duration_s }
-}
-
 /// A load or approach that is reached within a fifth of a second and held; the same with a second, lower hold.
 fn held(control: Control, to: f64) -> SegmentedDrive {
     SegmentedDrive::new(control, vec![ramp(to, 0.2), ramp(to, LAST_S)]).unwrap()
@@ -137,11 +133,7 @@ fn cells_find_the_solid_as_springs_do() {
 
 #[test]
 fn a_history_that_never_changes_and_one_that_no_solid_has_are_refused() {
-    let step = Segment::Step {
-        to: 0.1,
-        duration_s: 100.0,
-    };
-    let drive = SegmentedDrive::new(Control::Load, vec![step]).unwrap();
+    let drive = SegmentedDrive::new(Control::Load, vec![step(0.1, 100.0)]).unwrap();
     let rows = |value: fn(f64) -> f64| -> Vec<Reading> {
         let row = |k: usize| Reading {
             row: k + 1,

@@ -40,27 +40,19 @@ fn a_punch_that_is_lifted_off_loses_what_the_harmonics_of_its_load_do() {
             sweep.springs(40).unwrap().steps(steps).unwrap()
         };
         let result = solved(sweep(200), omega);
-        below!(
-            (result.analysis.energy_loss_j - exact).abs(),
-            bar_j(&result)
-        );
-        below!(bar_j(&result), 5e-3 * exact, "{omega}");
+        below!((result.loss_j() - exact).abs(), result.bar_j());
+        below!(result.bar_j(), 5e-3 * exact, "{omega}");
         assert!((result.contact_duty.part - 2.0 / 3.0).abs() < 1e-15);
         assert_eq!(result.contact_duty.error, 0.0);
         assert_eq!(result.storage_modulus_pa, None);
         // The load leaves zero somewhere within a step, wherever that is: halving steps four times is an order of two on average.
         let error = |steps| {
             let result = solved(sweep(steps).without_error_bars(), omega);
-            relative(result.analysis.energy_loss_j, exact).abs()
+            relative(result.loss_j(), exact).abs()
         };
         let order = (error(50) / error(800)).log2() / 4.0;
         assert!(order > 1.7, "{omega}: {order}");
     }
-}
-
-fn bar_j(result: &CaseResult) -> f64 {
-    let errors = result.errors.as_ref().unwrap();
-    errors.of(Quantity::EnergyLoss).unwrap()
 }
 
 fn under_a_sphere(drive: HarmonicDrive) -> Sweep {
@@ -71,19 +63,15 @@ fn under_a_sphere(drive: HarmonicDrive) -> Sweep {
 fn a_tapping_sphere_dissipates_the_area_of_its_loop_within_the_error_of_both_engines() {
     for omega in [0.3, 1.0, 4.0] {
         let springs = solved(under_a_sphere(tapping()), omega);
-        let (loss_j, own_j) = (springs.analysis.energy_loss_j, bar_j(&springs));
+        let (loss_j, own_j) = (springs.loss_j(), springs.bar_j());
         below!((springs.dissipated_j() - loss_j).abs(), own_j, "{omega}");
         let fine = under_a_sphere(tapping()).without_error_bars();
         let fine = solved(fine.springs(1600).unwrap().steps(3200).unwrap(), omega);
-        below!(
-            (fine.analysis.energy_loss_j - loss_j).abs(),
-            own_j,
-            "{omega}"
-        );
+        below!((fine.loss_j() - loss_j).abs(), own_j, "{omega}");
         below!(own_j, 5e-3 * loss_j, "{omega}");
         let cells = solved(under_a_sphere(tapping()).cells(64).unwrap(), omega);
-        let apart_j = (cells.analysis.energy_loss_j - loss_j).abs();
-        below!(apart_j, bar_j(&cells) + own_j, "{omega}");
+        let apart_j = (cells.loss_j() - loss_j).abs();
+        below!(apart_j, cells.bar_j() + own_j, "{omega}");
         below!(apart_j, 5e-3 * loss_j, "{omega}");
     }
 }
@@ -106,7 +94,7 @@ fn the_deeper_the_load_would_pull_the_shorter_the_contact_down_to_none() {
     for mean_n in [8.0, 0.0, -5.0, -9.9] {
         let drive = HarmonicDrive::load(mean_n, AMPLITUDE_N).unwrap();
         let result = solved(under_a_sphere(drive).without_error_bars(), 1.0);
-        let loss_j = result.analysis.energy_loss_j;
+        let loss_j = result.loss_j();
         assert!(0.0 < loss_j && loss_j < last, "{mean_n}: {loss_j:e}");
         near!(result.dissipated_j(), loss_j, 0.05, "{mean_n}");
         last = loss_j;

@@ -62,17 +62,13 @@ fn any_cycle_of_a_punch_is_that_of_the_closed_form_within_its_error() {
         let result = record.result.as_ref().unwrap();
         let exact = exact(&zener(), (hold_s, omega), number);
         let (found, what) = (&result.analysis, format!("{hold_s} {omega} {number}"));
-        let bar = |quantity| result.errors.as_ref().unwrap().of(quantity).unwrap();
-        let bar_j = bar(Quantity::EnergyLoss);
-        below!(
-            (found.energy_loss_j - exact.energy_loss_j).abs(),
-            bar_j,
-            "{what}"
-        );
+        let bar_j = result.bar_j();
+        let off_j = (found.energy_loss_j - exact.energy_loss_j).abs();
+        below!(off_j, bar_j, "{what}");
         // 200 steps of a second-order rule; in the slowest case a step is as long as the retardation time.
         below!(bar_j, 2e-3 * exact.energy_loss_j, "{what}");
         let off_rad = (found.phase_lag_rad - exact.phase_lag_rad).abs();
-        below!(off_rad, bar(Quantity::PhaseLag), "{what}");
+        below!(off_rad, result.bar(Quantity::PhaseLag), "{what}");
         // What a branch dissipates is not the area of an open loop.
         assert!(result.branches.is_empty());
         near!(found.approach_mean_m, exact.approach_mean_m, 1e-4);
@@ -85,10 +81,7 @@ fn cycles_of_history(
     hold_s: f64,
     (omega, cycles): (f64, f64),
 ) -> Vec<HistoryCycle> {
-    let held = Segment::Step {
-        to: MEAN_N,
-        duration_s: hold_s,
-    };
+    let held = step(MEAN_N, hold_s);
     let sine = Segment::Sine {
         mean: MEAN_N,
         amplitude: AMPLITUDE_N,
@@ -111,8 +104,7 @@ fn a_cycle_by_its_number_is_the_one_of_the_history_within_the_errors_of_both() {
         let sweep = Sweep::new(pmma_material(), sphere, drive(hold_s));
         let record = case(sweep.at_cycle(cycle.number).unwrap(), omega);
         let result = record.result.as_ref().unwrap();
-        let errors = result.errors.as_ref().unwrap();
-        let bar = |quantity| errors.of(quantity).unwrap();
+        let bar = |quantity| result.bar(quantity);
         let close = |name: &str, of_both: [(f64, f64); 2]| {
             let [(a, bar_a), (b, bar_b)] = of_both;
             let what = format!("{name} of cycle {}", cycle.number);
@@ -121,24 +113,18 @@ fn a_cycle_by_its_number_is_the_one_of_the_history_within_the_errors_of_both() {
             below!(bar_b, 1e-2 * b.abs(), "{what}");
         };
         let (own, followed, error) = (&result.analysis, &numbers.analysis, &cycle.errors);
+        let [error_j, error_rad, error_pa] = [
+            error.energy_loss_j,
+            error.phase_lag_rad,
+            error.storage_modulus_pa,
+        ]
+        .map(Option::unwrap);
         let loss = (own.energy_loss_j, bar(Quantity::EnergyLoss));
-        close(
-            "loss",
-            [loss, (followed.energy_loss_j, error.energy_loss_j.unwrap())],
-        );
+        close("loss", [loss, (followed.energy_loss_j, error_j)]);
         let phase = (own.phase_lag_rad, bar(Quantity::PhaseLag));
-        close(
-            "phase",
-            [
-                phase,
-                (followed.phase_lag_rad, error.phase_lag_rad.unwrap()),
-            ],
-        );
-        let storage = (
-            result.storage_modulus_pa.unwrap(),
-            bar(Quantity::StorageModulus),
-        );
-        let error_pa = error.storage_modulus_pa.unwrap();
+        close("phase", [phase, (followed.phase_lag_rad, error_rad)]);
+        let storage_pa = result.storage_modulus_pa.unwrap();
+        let storage = (storage_pa, bar(Quantity::StorageModulus));
         close("E'", [storage, (numbers.moduli_pa.unwrap().0, error_pa)]);
     }
     // The approach still creeps, less with every cycle.

@@ -173,8 +173,7 @@ fn a_contact_that_opens_has_no_pressure_while_it_is_open() {
 fn a_marched_cycle_has_the_pressures_of_the_one_found_directly_and_a_record_keeps_every_bit() {
     let direct = run_case(&plan(sphere(0.01)), OMEGA);
     let mut marched = plan(sphere(0.01));
-    marched.cycle.method = Method::March;
-    marched.cycle.tolerance = 1e-8;
+    (marched.cycle.method, marched.cycle.tolerance) = (Method::March, 1e-8);
     let marched = result(&marched);
     let found = direct.result.as_ref().unwrap();
     for (a, b) in found.cycle.pressures.iter().zip(&marched.cycle.pressures) {

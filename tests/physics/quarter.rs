@@ -87,10 +87,8 @@ fn assert_alike(name: &str, a: &Solved, b: &Solved) {
         (one.contact_radius_m, other.contact_radius_m),
         (a.peak_pa, b.peak_pa),
     ] {
-        assert!(
-            (a - b).abs() <= ALIKE * b.abs(),
-            "{name}: {one:?} {other:?}"
-        );
+        let is_alike = (a - b).abs() <= ALIKE * b.abs();
+        assert!(is_alike, "{name}: {one:?} {other:?}");
     }
     let (a, b) = (&a.surface, &b.surface);
     assert_eq!(a.grid, b.grid);

@@ -7,7 +7,6 @@
 use crate::common::bars::{self, Judged};
 use crate::common::solids::{frequencies, shape, solid};
 use crate::prelude::*;
-use contact_dma::reference::steady::HarmonicContact;
 
 /// A plan per solid, and the frequencies: 1 % to 100 % of the mean.
 fn plans(
@@ -45,11 +44,8 @@ fn judged(plan: &SweepPlan, omega: f64, times: usize) -> Result<Judged, String> 
         exact.solver.springs *= times;
     });
     let found = solved(&with_bars(plan.clone()), omega)?;
-    Ok(Judged::new(
-        &found,
-        &solved(&exact, omega)?,
-        format!("{omega:e} rad/s, {plan:?}"),
-    ))
+    let (exact, what) = (solved(&exact, omega)?, format!("{omega:e} rad/s, {plan:?}"));
+    Ok(Judged::new(&found, &exact, what))
 }
 
 /// None may fail; 98 % of the losses and 95 % of all else lie inside their bars, and the median bar of the loss is at most five times
@@ -94,13 +90,8 @@ fn formula_j(plan: &SweepPlan, omega: f64) -> f64 {
     let compliance = contact.material.contact_compliance().unwrap();
     let relaxed = compliance.equilibrium_compliance().unwrap();
     let radius_m = contact.indenter.elastic_half_width_m(drive.mean(), relaxed);
-    let exact = HarmonicContact {
-        mean_n: drive.mean(),
-        amplitude_n: drive.amplitude(),
-        angular_frequency_rad_per_s: omega,
-        contact_compliance: &compliance,
-    };
-    exact.flat_punch(radius_m).1
+    let load = (drive.mean(), drive.amplitude());
+    harmonic(load, omega, &compliance).flat_punch(radius_m).1
 }
 
 #[test]
@@ -121,7 +112,7 @@ fn single_branches_of_any_strength_give_a_curve_without_gaps_and_a_punch_its_clo
     let off: Vec<f64> = cases
         .par_iter()
         .map(|(plan, omega)| {
-            let loss_j = solved(plan, *omega).unwrap().analysis.energy_loss_j;
+            let loss_j = solved(plan, *omega).unwrap().loss_j();
             assert!(loss_j > 0.0, "{omega}: {loss_j}");
             match plan.base.contact.indenter.shape() == shapes[2].shape() {
                 true => relative(loss_j, formula_j(plan, *omega)).abs(),
@@ -152,9 +143,7 @@ fn ratio_to_closed_form(plan: &SweepPlan, omega: f64) -> (f64, String) {
     let found = solved(plan, omega).unwrap();
     let (mean_n, amplitude_n) = (plan.base.drive.mean(), plan.base.drive.amplitude());
     let exact_j = formula_j(plan, omega);
-    let bars = found.errors.as_ref().unwrap();
-    let bar_j = bars.of(Quantity::EnergyLoss).unwrap();
-    let error_j = (found.analysis.energy_loss_j - exact_j).abs();
+    let (bar_j, error_j) = (found.bar_j(), (found.loss_j() - exact_j).abs());
     let what = format!(
         "{:?}, {} {omega:e} rad/s, amplitude {:e}: off by {:.1e}, bar {:.1e} of the loss",
         plan.solver.engine,
@@ -183,10 +172,8 @@ fn small_amplitudes_meet_the_closed_form_within_their_bars() {
             .collect();
         let outside: Vec<_> = ratios.iter().filter(|(ratio, _)| *ratio < 1.0).collect();
         let (outside, of) = (outside.len() as f64, ratios.len() as f64);
-        assert!(
-            outside <= 0.02 * of,
-            "{name}: {outside} of {of}, {ratios:#?}"
-        );
+        let is_right = outside <= 0.02 * of;
+        assert!(is_right, "{name}: {outside} of {of}, {ratios:#?}");
     }
 }
 
@@ -237,8 +224,7 @@ fn a_peak_of_the_pressure_in_a_layer_at_the_edge_that_steps_do_not_see_lies_with
         let exact = solved(&plan, omega).unwrap();
         let peak_pa = |result| Quantity::PeakPressureMax.of(result).unwrap();
         let error_pa = (peak_pa(&found) - peak_pa(&exact)).abs();
-        let bars = found.errors.as_ref().unwrap();
-        let bar_pa = bars.of(Quantity::PeakPressureMax).unwrap();
+        let bar_pa = found.bar(Quantity::PeakPressureMax);
         println!("{ratio} {tau_omega}: error {error_pa:.2e}, bar {bar_pa:.2e} Pa");
         assert!(error_pa < bar_pa, "{ratio} {tau_omega}");
         beyond_bar_of_resolutions += usize::from(error_pa > 0.1 * peak_pa(&exact));
@@ -275,11 +261,8 @@ fn no_case_fails_on_cells_and_true_errors_lie_inside_the_bars() {
         let coarse = with_bars(on_cells(exact.clone(), cells, steps));
         // Springs in four times as many steps: exact beside the cells.
         let (found, exact) = (solved(&coarse, *omega)?, solved(exact, *omega)?);
-        Ok(Judged::new(
-            &found,
-            &exact,
-            format!("{omega:e} rad/s, {coarse:?}"),
-        ))
+        let what = format!("{omega:e} rad/s, {coarse:?}");
+        Ok(Judged::new(&found, &exact, what))
     });
     check("cells", all.collect());
 }

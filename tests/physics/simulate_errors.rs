@@ -70,19 +70,16 @@ fn drive(random: &mut Random) -> SegmentedDrive {
         match random.count(0, 3) {
             0 => {
                 last = to;
-                Segment::Step { to, duration_s }
+                step(to, duration_s)
             }
             1 => {
                 last = 0.0;
                 sine(random, control, scale)
             }
-            2 => Segment::Step {
-                to: last,
-                duration_s,
-            },
+            2 => step(last, duration_s),
             _ => {
                 last = to;
-                Segment::Ramp { to, duration_s }
+                ramp(to, duration_s)
             }
         }
     });
@@ -96,16 +93,14 @@ fn scenario(random: &mut Random, springs: usize) -> ScenarioPlan {
     // A third of them with steps as given.
     let step_s = (random.unit() < 0.33).then(|| drive.duration_s() / random.between(30.0, 300.0));
     let mut plan = ScenarioPlan::new(material(random), shape(random), drive);
-    plan.step_s = step_s;
-    plan.solver.springs = springs;
+    (plan.step_s, plan.solver.springs) = (step_s, springs);
     plan
 }
 
 /// The rows of the history with so many times the steps, on springs, so many of them.
 fn refined(plan: &ScenarioPlan, steps: usize, springs: usize) -> Vec<HistoryRow> {
     let mut plan = plan.clone();
-    plan.solver.engine = EngineKind::Axisymmetric;
-    plan.solver.springs = springs;
+    (plan.solver.engine, plan.solver.springs) = (EngineKind::Axisymmetric, springs);
     let simulation = Simulation::with_fineness(plan, Fineness::Split(steps)).unwrap();
     let rows = followed(&simulation).rows;
     let in_full = simulation.schedule().in_full.iter();
@@ -222,14 +217,9 @@ fn the_true_error_lies_inside_the_bar_on_cells() {
 #[test]
 fn cells_follow_a_contact_that_grows_fifty_times() {
     let material = solid(1e3, &[(0.5e9, 1e-3), (0.5e9, 1.0)], 0.45);
-    let step = Segment::Step {
-        to: 1.0,
-        duration_s: 3e6,
-    };
-    let drive = SegmentedDrive::new(Control::Load, vec![step]).unwrap();
+    let drive = SegmentedDrive::new(Control::Load, vec![step(1.0, 3e6)]).unwrap();
     let mut plan = ScenarioPlan::new(material, sphere(0.01), drive);
-    plan.solver.engine = EngineKind::HalfSpace;
-    plan.solver.cells = 40;
+    (plan.solver.engine, plan.solver.cells) = (EngineKind::HalfSpace, 40);
     let exact = refined(&plan, 8, 800);
     let outcome = simulated(plan.clone());
     let growth = exact[exact.len() - 1].contact_radius_m / exact[0].contact_radius_m;
@@ -237,12 +227,8 @@ fn cells_follow_a_contact_that_grows_fifty_times() {
     let pairs = || outcome.rows.iter().zip(&exact);
     // Ten to twenty cells to a radius: to half a cell of the finest.
     for (row, exact) in pairs() {
-        near!(
-            row.contact_radius_m,
-            exact.contact_radius_m,
-            0.025,
-            "{row:?}"
-        );
+        let radius_m = exact.contact_radius_m;
+        near!(row.contact_radius_m, radius_m, 0.025, "{row:?}");
         let [found_m, exact_m] = [row, exact].map(|row| row.approach_m.unwrap());
         near!(found_m, exact_m, 1e-3, "{row:?}");
     }

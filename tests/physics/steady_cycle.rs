@@ -4,7 +4,6 @@
 use crate::prelude::*;
 use contact_dma::material::classical;
 use contact_dma::reference::elastic::{Hertz, flat_punch_approach_m};
-use contact_dma::reference::steady::HarmonicContact;
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::search::peak;
 
@@ -14,31 +13,24 @@ const MEAN_N: f64 = 10.0;
 
 /// A plan whose stabilised cycle is closed to 1e-9, so that its error is that of the grid and the step alone.
 fn closed(mut plan: SweepPlan, steps: usize, springs: usize) -> SweepPlan {
-    plan.cycle.steps = steps;
-    plan.cycle.tolerance = 1e-9;
-    plan.cycle.max_cycles = 10_000;
+    (
+        plan.cycle.steps,
+        plan.cycle.tolerance,
+        plan.cycle.max_cycles,
+    ) = (steps, 1e-9, 10_000);
     plan.solver.springs = springs;
     plan
 }
 
 const STEPS: [usize; 4] = [25, 50, 100, 200];
 
-/// Under 10 N and this amplitude.
-fn harmonic(compliance: &Creep, amplitude_n: f64, omega: f64) -> HarmonicContact<'_> {
-    HarmonicContact {
-        mean_n: MEAN_N,
-        amplitude_n,
-        angular_frequency_rad_per_s: omega,
-        contact_compliance: compliance,
-    }
-}
-
 #[test]
 fn a_flat_punch_has_the_amplitude_the_loss_and_the_moduli_of_the_closed_form_to_second_order() {
     // At 0.0084 rad/s the loss has its peak. Errors seen with 200 steps: 1.3e-5 at most, and 8.2e-5 at every frequency, which
     // is (2 pi/200)^2/12: what a sine loses when it is drawn straight between its samples.
     for omega in [0.0084, 0.1, 1.0] {
-        let (amplitude_m, loss_j) = harmonic(&pmma(), 5.0, omega).flat_punch(PUNCH_RADIUS_M);
+        let (amplitude_m, loss_j) =
+            harmonic((MEAN_N, 5.0), omega, &pmma()).flat_punch(PUNCH_RADIUS_M);
         // Every spring does the same: three are as good as three hundred.
         let plan = |steps| closed(pmma_plan(punch(PUNCH_RADIUS_M), 5.0), steps, 10);
         let found = STEPS.map(|steps| result(&plan(steps), omega));
@@ -88,11 +80,8 @@ fn a_flat_punch_on_cells_is_the_flat_punch_on_springs_times_the_stiffness_of_its
         let found = record.result.unwrap().analysis;
         // The pressure keeps its shape, and the first instant has found it: nothing but rounding is left, over as many
         // instants as there are.
-        near!(
-            found.energy_loss_j / springs.energy_loss_j,
-            staircase,
-            1e-12
-        );
+        let ratio = found.energy_loss_j / springs.energy_loss_j;
+        near!(ratio, staircase, 1e-12);
         let [found, springs] = [&found, &springs].map(|a| a.harmonics[0].approach_amplitude_m);
         near!(found / springs, staircase, 1e-12, "{cells} cells");
     }
@@ -103,7 +92,7 @@ fn the_extremes_of_the_steady_sphere_are_those_of_the_identities() {
     for omega in [1e-3, 0.01, 0.1, 1.0] {
         for amplitude_n in [2.5, 5.0, 9.0, MEAN_N] {
             let compliance = pmma();
-            let exact = harmonic(&compliance, amplitude_n, omega);
+            let exact = harmonic((MEAN_N, amplitude_n), omega, &compliance);
             let found = result(&pmma_plan(sphere(RADIUS_M), amplitude_n), omega);
             let (radius_m, approach_m) = exact.sphere_maxima(RADIUS_M).unwrap();
             let smallest_m = exact.sphere_smallest_contact_radius_m(RADIUS_M).unwrap();
@@ -127,7 +116,7 @@ fn the_loss_of_a_sphere_goes_over_into_that_of_the_punch_of_its_relaxed_contact_
     for omega in [0.01, 0.1] {
         let deviations = [0.4, 0.2, 0.1].map(|amplitude_n| {
             let compliance = pmma();
-            let exact = harmonic(&compliance, amplitude_n, omega);
+            let exact = harmonic((MEAN_N, amplitude_n), omega, &compliance);
             let expected_j = exact.sphere_small_amplitude_loss_j(RADIUS_M).unwrap();
             let plan = closed(pmma_plan(sphere(RADIUS_M), amplitude_n), 200, 1600);
             // What 200 steps are short of, as for the flat punch.
@@ -146,15 +135,10 @@ fn the_loss_of_a_sphere_goes_over_into_that_of_the_punch_of_its_relaxed_contact_
 
 /// A Zener body with equal springs and a retardation time of 1 s under (W_0/2)(1 + sin(2 pi f t + 3 pi/2)).
 fn zener_plan() -> SweepPlan {
-    let mut plan = sweep_plan(
-        zener_material(),
-        sphere(RADIUS_M),
-        0.5 * MEAN_N,
-        0.5 * MEAN_N,
-    );
-    plan.base.drive =
-        HarmonicDrive::new(Control::Load, 0.5 * MEAN_N, 0.5 * MEAN_N, 1.5 * PI, 0.0).unwrap();
-    plan
+    let half_n = 0.5 * MEAN_N;
+    let drive = HarmonicDrive::new(Control::Load, half_n, half_n, 1.5 * PI, 0.0);
+    let plan = sweep_plan(zener_material(), sphere(RADIUS_M), half_n, half_n);
+    with(plan, |plan| plan.base.drive = drive.unwrap())
 }
 
 /// The elastic contact with the instantaneous compliance under `MEAN_N`.
@@ -194,12 +178,7 @@ fn the_zener_body_has_the_steady_cycles_of_the_exact_solution() {
         }
         // The identities are sharper than the table's digits; the tolerances are those for PMMA, with the stronger kink of a
         // body that softens to a half: 0.17 of a spring.
-        let exact = HarmonicContact {
-            mean_n: 0.5 * MEAN_N,
-            amplitude_n: 0.5 * MEAN_N,
-            angular_frequency_rad_per_s: TAU * f,
-            contact_compliance: &compliance,
-        };
+        let exact = harmonic((0.5 * MEAN_N, 0.5 * MEAN_N), TAU * f, &compliance);
         let (largest_m, deepest_m) = exact.sphere_maxima(RADIUS_M).unwrap();
         near!(radius_m, largest_m, 4.3e-4, "f = {f}");
         near!(approach_m, deepest_m, 4e-5, "f = {f}");
@@ -324,12 +303,8 @@ fn pmma_under_a_sphere_has_the_cycles_of_the_independent_solution_at_default_set
         near!(1e6 * found.approach_m.maximum, deepest, 5e-5, "{omega}");
         near!(1e6 * found.approach_m.minimum, shallowest, 5e-5, "{omega}");
         // The kink at the edge, 0.058 of a spring.
-        near!(
-            1e6 * found.contact_radius_m.maximum,
-            radius,
-            1.5e-4,
-            "{omega}"
-        );
+        let largest_um = 1e6 * found.contact_radius_m.maximum;
+        near!(largest_um, radius, 1.5e-4, "{omega}");
         // 1.7e-4 at every frequency, grid and step, also where Hertz gives the exact value (next test): the table's own.
         let pressure_pa = found.peak_pressure_pa.unwrap().maximum;
         near!(1e-6 * pressure_pa, pressure, 3e-4, "{omega}");
@@ -348,14 +323,13 @@ fn a_slow_cycle_has_the_hertz_contact_of_the_relaxed_body_and_a_fast_one_the_sti
     };
     let (approach_m, pressure_pa) = (found.approach_m, found.peak_pressure_pa.unwrap());
     // omega times the retardation time is 1.3e-4: of second order here; midpoint rule 1e-6.
-    near!(approach_m.maximum, relaxed(15.0).approach_m(), 2.5e-6);
-    near!(approach_m.minimum, relaxed(5.0).approach_m(), 2.5e-6);
-    near!(
-        pressure_pa.maximum,
-        relaxed(15.0).peak_pressure_pa(),
-        2.5e-6
-    );
-    near!(pressure_pa.minimum, relaxed(5.0).peak_pressure_pa(), 2.5e-6);
+    for (approach_m, pressure_pa, load_n) in [
+        (approach_m.maximum, pressure_pa.maximum, 15.0),
+        (approach_m.minimum, pressure_pa.minimum, 5.0),
+    ] {
+        near!(approach_m, relaxed(load_n).approach_m(), 2.5e-6);
+        near!(pressure_pa, relaxed(load_n).peak_pressure_pa(), 2.5e-6);
+    }
     // At 3 rad/s the retardation has no time within a cycle: a^3 swings by the compliance at that frequency, nearly the glassy
     // one, about what the mean load has relaxed to. Steps of second order: (pi/200)^2/3 of it.
     let found = result(&pmma_plan(sphere(RADIUS_M), 5.0), 3.0);
@@ -411,9 +385,7 @@ fn a_sphere_answers_a_sine_with_even_harmonics_too() {
 fn a_load_that_falls_to_zero_between_two_samples_is_followed_on_odd_grids_too() {
     // The contact shrinks to the one cell in the middle and grows again from there.
     let mut plan = pmma_plan(sphere(RADIUS_M), MEAN_N);
-    plan.cycle.steps = 201;
-    plan.solver.engine = EngineKind::HalfSpace;
-    plan.solver.cells = 33;
+    (plan.cycle.steps, plan.solver.engine, plan.solver.cells) = (201, EngineKind::HalfSpace, 33);
     let found_j = loss_j(&plan, 0.01);
     plan.solver.engine = EngineKind::Axisymmetric;
     // 33 cells: 1.4e-5 was seen; the luck of the edge cells allows a few times that.
@@ -423,8 +395,7 @@ fn a_load_that_falls_to_zero_between_two_samples_is_followed_on_odd_grids_too() 
 #[test]
 fn too_few_cycles_and_a_fluid_are_told_and_give_no_result() {
     let mut plan = pmma_plan(sphere(RADIUS_M), 5.0);
-    plan.cycle.method = Method::March;
-    plan.cycle.max_cycles = 20;
+    (plan.cycle.method, plan.cycle.max_cycles) = (Method::March, 20);
     let record = run_case(&plan, 3.0);
     assert_eq!(record.status, Status::NotConverged);
     assert!(record.result.is_none() && record.message.is_some());

@@ -362,11 +362,8 @@ fn under_a_falling_ramp_the_contact_on_a_maxwell_body_still_grows_for_a_while() 
     let found = maxwell_radii(&mut cells, 2.0, 20, ramp);
     for ((s, radius), exact) in found.iter().zip(radii.iter().step_by(5)) {
         // Steps of a tenth leave far less than half a cell.
-        below!(
-            (radius - exact.1).abs(),
-            0.5 * 2.4 / CELLS as f64,
-            "s = {s}"
-        );
+        let half_a_cell = 0.5 * 2.4 / CELLS as f64;
+        below!((radius - exact.1).abs(), half_a_cell, "s = {s}");
     }
 }
 

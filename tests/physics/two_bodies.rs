@@ -58,12 +58,8 @@ fn a_punch_that_yields_tells_the_moduli_of_the_solid_alone() {
 #[test]
 fn a_history_knows_the_indenter_too() {
     let steel = library::find("steel").unwrap().material().unwrap();
-    let step = Segment::Step {
-        to: 10.0,
-        duration_s: 100.0,
-    };
     let approach = |material: Material| {
-        let drive = SegmentedDrive::new(Control::Load, vec![step.clone()]).unwrap();
+        let drive = SegmentedDrive::new(Control::Load, vec![step(10.0, 100.0)]).unwrap();
         let outcome = simulated(ScenarioPlan::new(material, sphere(0.01), drive));
         outcome.rows.last().unwrap().approach_m.unwrap()
     };

@@ -1,8 +1,6 @@
 //! `[adhesion]` in a sweep file: what comes of it, and what is refused.
 
-#![cfg(feature = "cli")]
-
-use crate::program::{Place, says};
+use crate::prelude::*;
 
 fn sweep(indenter: &str, drive: &str, rest: &str) -> String {
     format!(

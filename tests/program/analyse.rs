@@ -1,18 +1,11 @@
 //! `contact-dma analyse`: records of measured loops in, the table of a sweep out.
 
-#![cfg(feature = "cli")]
-
 #[path = "../../examples/measured_loops.rs"]
 #[allow(dead_code)]
 mod example;
 
+use crate::prelude::*;
 use std::f64::consts::{PI, TAU};
-use std::fs;
-use std::path::{Path, PathBuf};
-
-use crate::common::pmma_material;
-use crate::program::{Place, says};
-use tempfile::TempDir;
 
 /// A record of a sinusoidal load and an approach that lags, with a deterministic noise, a thousandth of the amplitudes.
 pub(crate) struct Loop {

@@ -3,12 +3,7 @@
 #[path = "../../src/core/build.rs"]
 mod build;
 
-use std::collections::BTreeSet;
-use std::fs;
-use std::path::Path;
-
-use crate::plans;
-use crate::program::{Place, files, pmma_sweep};
+use crate::prelude::*;
 use contact_dma::sweep::plan::resolved;
 use contact_dma::sweep::store::provenance::BUILD;
 

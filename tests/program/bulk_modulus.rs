@@ -1,8 +1,6 @@
 //! `bulk_modulus` in place of `poisson_ratio` in the files: what comes of it.
 
-#![cfg(feature = "cli")]
-
-use crate::program::{Place, says};
+use crate::prelude::*;
 
 fn sweep(material: &str) -> String {
     format!(

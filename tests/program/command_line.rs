@@ -1,9 +1,6 @@
 //! The program as a user meets it: output, messages, exit codes, files.
 
-#![cfg(feature = "cli")]
-
-use crate::program::{Place, pmma_sweep, says, words};
-use std::fs;
+use crate::prelude::*;
 use std::process::Command as Process;
 
 const FREQUENCIES: &str = r#"["0.004 rad/s", "0.008 rad/s", "0.02 rad/s"]"#;

@@ -1,6 +1,6 @@
 //! Two results compared: the peak that moved is found, what was not compared is said, and nothing compared is no agreement.
 
-use crate::program::{Place, Table, says};
+use crate::prelude::*;
 
 /// Sweeps PMMA, with its slower relaxation time as given (s), around its largest peak.
 fn swept(place: &Place, name: &str, time_s: f64, more: &str) {

@@ -1,8 +1,6 @@
 //! The n-th cycle of a sweep, and the cycles of a history, as files, tables, pages and messages show them.
 
-#![cfg(feature = "cli")]
-
-use crate::program::{Place, SVG, pmma_sweep};
+use crate::prelude::*;
 
 const THREE: &str =
     "[sweep]\nangular_frequency = [\"0.004 rad/s\", \"0.02 rad/s\", \"0.1 rad/s\"]\n";

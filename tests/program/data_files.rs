@@ -1,12 +1,7 @@
 //! Data files that can be used with reservations, which are said, and those that are refused by what their numbers are. What is wrong
 //! with them as tables: tests/refused.
 
-#![cfg(feature = "cli")]
-
-use crate::common::{log_spaced, pmma_material};
-use crate::program::{Place, says, words};
-use std::path::Path;
-
+use crate::prelude::*;
 use contact_dma::input::dynamic;
 use contact_dma::material::ModulusKind;
 

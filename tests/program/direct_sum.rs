@@ -1,11 +1,6 @@
 //! Tabulated materials taken as they are: the direct hereditary sum through the program, beside the fitted series.
 
-#![cfg(feature = "cli")]
-
-use std::fs;
-
-use crate::common::{largest, pmma_material};
-use crate::program::{Place, says, words};
+use crate::prelude::*;
 
 /// Creep compliance of PMMA, twenty samples per decade from 0.1 s to 1000 s, off by up to 0.5 % either way.
 fn creep_csv() -> String {
@@ -22,30 +17,7 @@ fn creep_csv() -> String {
 }
 
 /// A step, an unloading to zero, and a sine: the contact opens and is met again.
-const SCENARIO: &str = r#"title = "tabulated"
-
-[material]
-poisson_ratio = 0.38
-
-[material.table]
-file = "creep.csv"
-quantity = "creep"
-modulus = "longitudinal"
-
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-
-[drive]
-segments = [
-    { kind = "step", to = "10 N", duration = "100 s" },
-    { kind = "ramp", to = 0, duration = "10 s" },
-    { kind = "sine", mean = "5 N", amplitude = "5 N", angular_frequency = "0.05 rad/s", phase = "-90 deg", cycles = 2 },
-]
-
-[solver]
-springs = 200
-"#;
+const SCENARIO: &str = include_str!("../inputs/tabulated.toml");
 
 fn place() -> Place {
     let place = Place::with("scenario.toml", SCENARIO);

@@ -1,11 +1,6 @@
 //! The files under sweeps/: each states its question, and each runs through the program, on coarse grids.
 
-#![cfg(feature = "cli")]
-
-use std::fs;
-use std::path::{Path, PathBuf};
-
-use crate::program::{Place, below, says};
+use crate::prelude::*;
 
 /// The figures of the paper, with a test of their own.
 const SKIPPED: &str = "spinu-2018";

@@ -1,11 +1,7 @@
 //! Fields of the axisymmetric engine: its radius revolved onto cells, against the half-space engine and closed forms.
 
-#![cfg(feature = "cli")]
-
 use crate::common::engines::distance_m;
-use crate::common::{followed, largest_difference, root_mean_square};
-use crate::plans;
-use crate::program::{Place, npy, says};
+use crate::prelude::*;
 use contact_dma::contact::surface::{CellSurface, Surface};
 use contact_dma::reference::elastic::Hertz;
 use contact_dma::simulation::{SimulationOutcome, SurfaceRecord};

@@ -1,12 +1,7 @@
 //! The `[figures]` table: what it changes of the pictures, what it does not change of the sweep, and what captions say.
 
-#![cfg(feature = "cli")]
-
-use std::collections::BTreeSet;
-use std::fs;
-
 use crate::html::between;
-use crate::program::{Place, pmma_sweep, says};
+use crate::prelude::*;
 
 const FREQUENCIES: &str = r#"hold = "500 s"
 [sweep]

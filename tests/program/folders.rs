@@ -1,70 +1,10 @@
 //! Files of a user survive, whatever the folder: the program replaces and removes what it has written itself, and nothing else.
 
-#![cfg(feature = "cli")]
-
-use std::fs;
-
-use crate::program::{Place, pmma_sweep, says};
-
-/// Three cases of a few milliseconds, with figures as SVG alone.
-const SWEEP: &str = r#"[sweep]
-angular_frequency = ["0.004 rad/s", "0.01 rad/s", "0.03 rad/s"]
-[cycle]
-steps = 24
-error_bars = false
-[solver]
-springs = 24
-[figures]
-formats = ["svg"]
-"#;
-
-const SCENARIO: &str = r#"title = "a step"
-[material]
-library = "pmma"
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-[drive]
-segments = [{ kind = "step", to = "10 N", duration = "10 s" }]
-[time]
-step = "1 s"
-[output]
-error_bars = false
-profiles_at = ["0 s", "5 s"]
-[solver]
-springs = 24
-[figures]
-formats = ["svg"]
-"#;
-
-const CREEP: &str =
-    "time_s,creep_compliance_per_pa\n0.1,1.0e-6\n1,1.1e-6\n10,1.4e-6\n100,1.8e-6\n1000,1.95e-6\n";
-
-const IDENTIFY: &str = r#"title = "a polymer"
-[identify]
-data = "cycles.csv"
-branches = 1
-[material]
-poisson_ratio = 0.35
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-[drive]
-control = "load"
-mean = "10 N"
-amplitude = "5 N"
-[cycle]
-steps = 24
-[solver]
-springs = 24
-"#;
+use crate::prelude::*;
 
 /// A folder with the inputs of every command, and a finished sweep in `swept`.
-fn inputs() -> Place {
-    let place = Place::with("small.toml", &pmma_sweep(SWEEP));
-    place.put("step.toml", SCENARIO);
-    place.put("creep.csv", CREEP);
-    place.put("identify.toml", IDENTIFY);
+pub fn inputs() -> Place {
+    let place = Place::lent("small.toml step.toml creep.csv dma.csv identify.toml");
     for k in 0..2 {
         let row = |i: usize| {
             let (t, w) = (0.05 * i as f64, 2.0 + k as f64);
@@ -202,8 +142,8 @@ fn a_folder_belongs_to_one_command_and_another_one_is_refused() {
 #[test]
 fn the_default_folder_of_two_files_of_one_name_is_given_to_one_of_them() {
     let place = inputs();
-    place.put("a/polymer.toml", pmma_sweep(SWEEP));
-    place.put("b/polymer.toml", IDENTIFY);
+    place.put("a/polymer.toml", place.text("small.toml"));
+    place.put("b/polymer.toml", place.text("identify.toml"));
     place.put("b/cycles.csv", place.text("cycles.csv"));
     place.done("sweep a/polymer.toml");
     let parts = ["reports/polymer", "a sweep", "an identification", "--out"];
@@ -213,21 +153,21 @@ fn the_default_folder_of_two_files_of_one_name_is_given_to_one_of_them() {
 #[test]
 fn no_command_writes_over_a_file_that_it_reads() {
     let place = inputs();
-    let raw = place.text("raw/0.csv");
-    let identify = IDENTIFY.replace("cycles.csv", "fit.csv");
-    let table = place.text("cycles.csv");
-    let sweep = pmma_sweep(SWEEP).replace(
+    let [raw, table, creep, plan] =
+        ["raw/0.csv", "cycles.csv", "creep.csv", "small.toml"].map(|name| place.text(name));
+    let identify = place.text("identify.toml");
+    let identify = identify.replace("cycles.csv", "fit.csv");
+    let sweep = plan.replace(
         "library = \"pmma\"",
         "poisson_ratio = 0.3\n[material.table]\nfile = \"loops.csv\"\nquantity = \"creep\"\nmodulus = \"longitudinal\"",
     );
-    let plan = pmma_sweep(SWEEP);
     let fit = &format!("material fit fit.csv {FIT}");
     for (name, text) in [
-        ("a/loops/0.csv", raw.as_str()),
-        ("b/fit.csv", CREEP),
+        ("a/loops/0.csv", &raw),
+        ("b/fit.csv", &creep),
         ("c/fit.csv", &table),
         ("c/id.toml", &identify),
-        ("d/loops.csv", CREEP),
+        ("d/loops.csv", &creep),
         ("d/s.toml", &sweep),
         ("e/resolved.toml", &plan),
     ] {
@@ -252,7 +192,7 @@ fn no_command_writes_over_a_file_that_it_reads() {
     }
     // In a folder of its own too: the table that an earlier fit has written.
     place.done(&format!("material fit creep.csv {FIT} --out fitted"));
-    place.put("fitted/fit.csv", CREEP);
+    place.put("fitted/fit.csv", creep);
     let fit = format!("material fit fitted/fit.csv {FIT} --out fitted");
     refused(&place, &fit, "fitted", &[]);
 }
@@ -276,16 +216,8 @@ fn what_an_earlier_run_showed_and_this_one_does_not_is_removed() {
     place.done("report own");
     assert!(!own("loops/202.csv").exists() && own("loops/203.csv").exists());
     // Another fit in the same folder.
-    let dynamic = "Temperature (°C),Frequency (Hz),E' (MPa),E'' (MPa)\n";
-    let row = |k| {
-        let f = 10f64.powf(-1.0 + 0.25 * f64::from(k));
-        let (x, lossy) = (6.0 * f, 300.0 * f / (1.0 + 36.0 * f * f));
-        format!("25,{f},{},{lossy}\n", 100.0 + x * lossy)
-    };
-    let rows: String = (0..12).map(row).collect();
-    place.put("dynamic.csv", format!("{dynamic}{rows}"));
     let fit = "--modulus longitudinal --poisson-ratio 0.4 --out fits";
-    let of_dynamic = format!("material fit dynamic.csv --quantity dynamic {fit}");
+    let of_dynamic = format!("material fit dma.csv --quantity dynamic {fit}");
     place.done(&of_dynamic);
     assert!(place.has("fits/summary.json"));
     place.done(&format!("material fit creep.csv --quantity creep {fit}"));
@@ -454,20 +386,20 @@ fn a_folder_of_another_command_is_told_where_a_sweep_is_needed() {
 #[test]
 fn the_data_of_a_fit_that_were_copied_beside_its_results_stay() {
     let place = inputs();
-    let data = "frequency_hz,storage_modulus_pa,loss_modulus_pa\n0.1,1e6,1e5\n0.3,1.2e6,2e5\n1,1.5e6,3e5\n3,1.8e6,2e5\n10,2e6,1e5\n";
-    place.put("dma.csv", data);
     place.done("material fit dma.csv --quantity dynamic --modulus shear --out out");
     // The summary names the data by their file, which the program has not written.
-    place.put("out/dma.csv", data);
+    place.put("out/dma.csv", place.text("dma.csv"));
     place.done("sweep small.toml --out out --force");
     assert!(place.path("out/dma.csv").exists() && !place.path("out/master.csv").exists());
 }
 
 #[test]
 fn a_title_that_is_the_name_of_the_folder_is_no_file_that_is_read() {
-    let sweep = pmma_sweep(SWEEP).replacen("title = \"", "title = \"found\" # \"", 1);
-    assert!(sweep.contains("title = \"found\""), "{sweep}");
-    let place = Place::with("small.toml", &sweep);
+    let place = Place::lent("small.toml");
+    let found = place
+        .text("small.toml")
+        .replace("PMMA under a sphere", "found");
+    place.put("small.toml", found);
     let run = "sweep small.toml --out found --force --quiet --no-figures";
     for loads in ["10 N", "12 N"] {
         place.done(&format!("{run} --set 'drive.mean={loads}'"));

@@ -1,17 +1,12 @@
 //! Inputs that nobody meant: random bytes, and valid files with random changes. Nothing may panic, hang or take memory
 //! without bound; what is accepted must be what it says. Seeded: every run tries the same inputs.
 
-#![cfg(feature = "report")]
-
+use crate::prelude::*;
 use std::cell::Cell;
-use std::path::Path;
 
 use crate::inputs::{CheckpointFiles, Histories, Records, Table, Tables};
-use crate::plans;
-use crate::program::files;
 use contact_dma::input::keys;
 use contact_dma::report::comparison::{Comparison, SweepTable, Tolerances};
-use contact_dma::sweep::case::Setup;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
@@ -81,32 +76,7 @@ fn assault_with(cases: u32, seeds: &[&[u8]], check: impl Fn(&[u8])) {
     runner(cases / 4).run(&bytes, of_bytes).unwrap();
 }
 
-const SWEEP: &str = r#"title = "a sweep"
-[material]
-poisson_ratio = 0.38
-[material.relaxation]
-modulus = "longitudinal"
-equilibrium = "1973 MPa"
-branches = [ { modulus = "254.776 MPa", time = "8.93 s" }, { modulus = "263.6628 MPa", time = "117.96 s" } ]
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-[drive]
-control = "load"
-mean = "10 N"
-amplitude = "5 N"
-hold = "500 s"
-[sweep]
-drive.amplitude = ["1 N", "5 N"]
-angular_frequency = { from = "1e-4 rad/s", to = "1 rad/s", points = 41, spacing = "log" }
-[cycle]
-steps = 100
-method = "march"
-tolerance = 1e-4
-[solver]
-engine = "half-space"
-cells = 32
-"#;
+const SWEEP: &str = include_str!("../inputs/fuzzed.toml");
 
 #[test]
 fn a_changed_sweep_file_is_refused_with_a_reason_or_means_what_its_resolved_form_says() {

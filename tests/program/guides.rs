@@ -2,14 +2,8 @@
 //! tell it. Commands for a cluster meet an `sbatch` that runs its jobs at once, and pictures in LaTeX must be there in the size that
 //! the text gives them. Rust code is tested as documentation.
 
-#![cfg(feature = "cli")]
-
-use std::fs;
-use std::path::{Path, PathBuf};
+use crate::prelude::*;
 use std::process::Command;
-
-use crate::program::says;
-use tempfile::TempDir;
 
 /// Something a guide tells its reader to do.
 enum Step {

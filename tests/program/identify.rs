@@ -1,12 +1,6 @@
 //! `contact-dma identify`: what it writes and prints, and what it refuses.
 
-#![cfg(feature = "cli")]
-
-use std::fs;
-use std::path::Path;
-
-use crate::program::{Place, says};
-use serde_json::Value;
+use crate::prelude::*;
 
 const FILE: &str = "title = \"A measured solid\"\n[identify]\ndata = \"measured.csv\"\n[material]\npoisson_ratio = 0.45\n\
                     [indenter]\nshape = \"sphere\"\nradius = \"2 mm\"\n[drive]\nmean = \"0.2 N\"\namplitude = \"0.1 N\"\n";

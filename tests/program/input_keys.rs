@@ -1,18 +1,14 @@
 //! What the schemas say of the keys of input files is what the program does, and every key comes back in the resolved file.
 
-use std::collections::BTreeSet;
-use std::fs;
-use std::path::{Path, PathBuf};
+use crate::prelude::*;
 use std::sync::OnceLock;
 
-use crate::program::{below, pmma_sweep, program};
 use crate::refused;
 use contact_dma::identify;
-use contact_dma::input::document::Document;
 use contact_dma::input::keys::{self, FileKind};
 use contact_dma::input::{identify_file, scenario_file, schema, sweep_file};
 use contact_dma::simulation::scenario;
-use contact_dma::sweep::plan::resolved::{identity, resolved_text};
+use contact_dma::sweep::plan::resolved::identity;
 use toml::Value;
 
 fn root() -> &'static Path {

@@ -1,8 +1,6 @@
 //! A sweep of more cases than anybody reads one by one: few files, a page that stays small, cycles where they are asked for.
 
-#![cfg(feature = "cli")]
-
-use crate::program::{Place, pmma_sweep, says};
+use crate::prelude::*;
 
 /// 11 curves of 20 cases, as coarse as they may be.
 const LARGE: &str = r#"[sweep]

@@ -1,8 +1,6 @@
 //! A layer in sweep files: what is told of it.
 
-#![cfg(feature = "cli")]
-
-use crate::program::Place;
+use crate::prelude::*;
 use contact_dma::quantity::{Dimension, format_si};
 
 const SWEEP: &str = "title = \"t\"\n[material]\nlibrary = \"pmma\"\n[layer]\nthickness = \"10 um\"\nbase = \"frictionless\"\n\

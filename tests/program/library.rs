@@ -7,17 +7,12 @@ mod one_history;
 #[path = "../../examples/sweep_with_peaks.rs"]
 mod sweep_with_peaks;
 
-use crate::common::{pmma_material as pmma, run_case, with};
-use crate::plans;
-use crate::program::{pmma_sweep, says};
+use crate::common::pmma_material as pmma;
+use crate::prelude::*;
 use std::num::NonZeroUsize;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 use contact_dma::prelude::*;
 use contact_dma::simulation::HistoryRow;
-use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::plan::resolved::resolved_text;
 use contact_dma::sweep::record::Status;
 use contact_dma::sweep::search::run::{self, Mode};
 use contact_dma::sweep::store::Store;

@@ -1,11 +1,7 @@
 //! Several materials or indenters by name in one sweep: the cases are those of sweeps of their own, to the last bit.
 
-#![cfg(feature = "cli")]
-
-use crate::plans;
-use crate::program::{Place, says};
+use crate::prelude::*;
 use contact_dma::engine::EngineKind;
-use contact_dma::sweep::plan::SweepPlan;
 
 /// What all sweeps of this file have in common; `[sweep]` is open at its end.
 const COMMON: &str = r#"

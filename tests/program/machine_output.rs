@@ -1,11 +1,7 @@
 //! What other programs read: JSON on standard output and nothing else, and no colours where no person looks.
 
-#![cfg(feature = "cli")]
-
-use crate::common::{creep, largest, series};
-use crate::program::{Place, SVG, pmma_sweep, program, says};
+use crate::prelude::*;
 use contact_dma::material::Relaxation;
-use serde_json::Value;
 
 const THREE: &str = r#"[sweep]
 angular_frequency = ["0.004 rad/s", "0.008 rad/s", "0.02 rad/s"]

@@ -1,5 +1,7 @@
 //! What the program and the library answer: input and its messages, outputs, figures, pages, guides, the rules of the code.
 
+#![cfg(feature = "cli")]
+
 #[macro_use]
 #[path = "../common/near.rs"]
 mod near;
@@ -44,6 +46,7 @@ mod page;
 mod paths;
 mod periodic;
 mod plans;
+mod prelude;
 mod redrawn;
 mod refined_sweep;
 mod refused;

@@ -3,16 +3,11 @@
 //! `RECORDS=100 cargo test --test program measured_material -- --nocapture` makes as many sets of records as asked for and prints what the
 //! guide quotes; without it a few are made.
 
-#![cfg(feature = "cli")]
-
+use crate::prelude::*;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
 use contact_dma::prelude::*;
-
-use crate::common::random::Random;
-use crate::common::{from_environment, largest, log_spaced};
-use crate::program::Place;
 
 const POISSON: f64 = 0.45;
 const MEAN_N: f64 = 0.2;

@@ -1,9 +1,7 @@
 //! Names and titles that could command a terminal, a spreadsheet or an SVG are refused; figures that cannot be drawn, or lack letters,
 //! are warnings beside the finished result.
 
-#![cfg(feature = "cli")]
-
-use crate::program::{Place, SVG, pmma_sweep};
+use crate::prelude::*;
 
 /// A cheap sweep of one frequency.
 const ONE: &str = "[sweep]\nangular_frequency = \"0.01 rad/s\"\n[cycle]\nsteps = 16\nerror_bars = false\n[solver]\nsprings = 16\n";

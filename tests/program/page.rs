@@ -1,11 +1,8 @@
 //! The pages of sweeps, scenarios, materials and comparisons: their size, what they load, what they hold against the files beside
 //! them, their nesting.
 
-#![cfg(feature = "cli")]
-
 use crate::html::{assert_stands_alone, between, data, nesting_problems, unescaped};
-use crate::program::{Place, SVG, says};
-use serde_json::Value;
+use crate::prelude::*;
 
 /// A quick sweep; frequencies and title as told.
 fn sweep_file(title: &str, frequencies: &str, more: &str) -> String {

@@ -1,11 +1,7 @@
 //! Files named in a sweep or scenario file start from its folder, those named in a flag from the working folder: the same for
 //! every key.
 
-#![cfg(feature = "cli")]
-
-use std::fs;
-
-use crate::program::{Place, says};
+use crate::prelude::*;
 
 /// The keys that name files: the flag, and what the file says.
 const KEYS: [(&str, &str); 3] = [
@@ -17,29 +13,7 @@ const KEYS: [(&str, &str); 3] = [
     ),
 ];
 
-const SCENARIO: &str = r#"title = "three files"
-
-[material]
-poisson_ratio = 0.4
-
-[material.table]
-file = "data/creep.csv"
-quantity = "creep"
-modulus = "shear"
-
-[indenter]
-shape = "profile"
-file = "data/tip.csv"
-
-[drive]
-segments = [{ kind = "table", file = "data/load.csv" }]
-
-[time]
-step = "1 s"
-
-[solver]
-springs = 50
-"#;
+const SCENARIO: &str = include_str!("../inputs/three-files.toml");
 
 fn write_data(place: &Place, folder: &str) {
     let creep = "time_s,creep_compliance_per_pa\n0.1,1.0e-6\n1,1.1e-6\n10,1.5e-6\n100,1.6e-6\n";

@@ -1,8 +1,6 @@
 //! `edge = "periodic"` in the files: a patch of a rough surface that repeats itself, and what is refused.
 
-#![cfg(feature = "cli")]
-
-use crate::program::{Place, says};
+use crate::prelude::*;
 
 const ROUGH: &str = "shape = \"rough\"\ncells = 32\nspacing = \"2 um\"\nhurst_exponent = 0.8\nrms_height = \"50 nm\"\n\
                      cut_off_wavelength = \"8 um\"\nseed = 3\nedge = \"periodic\"";

@@ -1,8 +1,6 @@
 //! A sweep that adds frequencies where its own do not resolve the curve, and a sweep of two axes.
 
-#![cfg(feature = "cli")]
-
-use crate::program::{Place, Table, pmma_sweep};
+use crate::prelude::*;
 
 /// Six points over five decades.
 const FEW: &str = r#"[sweep]

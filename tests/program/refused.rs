@@ -1,24 +1,17 @@
 //! Wrong inputs with all that is said of them: tests/refused/KIND/NAME.toml, or a file of data, beside it what it names, and in
 //! NAME.stderr the messages. `RENEW=1 cargo test --test program refused` writes these anew, to be read before they are committed.
 
-use std::collections::BTreeSet;
+use crate::prelude::*;
 use std::fmt::Display;
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
 
 use crate::input_keys::assert_current;
-use crate::program::program;
 use contact_dma::identify;
 use contact_dma::input::diagnostic::{Diagnostics, Styling};
-use contact_dma::input::document::Document;
 use contact_dma::input::{
     dynamic, identify_file, loop_file, scenario_file, setup_file, sweep_file,
 };
 use contact_dma::material::ModulusKind;
 use contact_dma::simulation::Simulation;
-use contact_dma::sweep::case::Setup;
-use tempfile::TempDir;
 
 /// What a file of a folder is read as, up to where it is refused.
 type Read = fn(&Path) -> Result<(), String>;

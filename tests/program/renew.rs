@@ -1,12 +1,8 @@
 //! What the repository repeats of the tables of keys and columns and of the commands is what these say.
 
-use std::fs;
-use std::path::Path;
-
-use crate::program::program;
+use crate::prelude::*;
 use predicates::prelude::PredicateBooleanExt;
 use predicates::str::contains;
-use tempfile::TempDir;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))

@@ -1,15 +1,10 @@
 //! The figures of the base paper: made again from the files of `sweeps/spinu-2018/`, compared byte for byte with what is
 //! committed in `reports/spinu-2018/`; and every claim held to the accuracy it needs.
 
-#![cfg(feature = "cli")]
-
-use std::collections::BTreeSet;
-use std::fs;
-use std::path::{Path, PathBuf};
+use crate::prelude::*;
 use std::sync::LazyLock;
 
 use crate::html::{assert_stands_alone, data};
-use crate::program::{Place, Table, below, files, says};
 
 /// All figures, made once for all tests of this file by the command itself.
 static MADE: LazyLock<Place> = LazyLock::new(|| {

@@ -1,12 +1,6 @@
 //! Single drive histories: scenario files, closed forms, both controls, what is written and what is refused.
 
-#![cfg(feature = "cli")]
-
-use crate::common::followed;
-use crate::plans;
-use crate::program::{Place, npy, says};
-
-use contact_dma::reference::steady::HarmonicContact;
+use crate::prelude::*;
 use contact_dma::reference::transient::maxwell_half_sine_cubed_radius;
 use contact_dma::simulation::{HistoryRow, SimulationOutcome};
 
@@ -302,12 +296,7 @@ fn the_loss_of_a_flat_punch_under_an_imposed_approach_is_that_of_the_complex_mod
         // The loads that make this approach, whose loss is that of the load.
         let contact = plans::sweep(&text("mean = 2\namplitude = 1")).base.contact;
         let compliance = contact.material.contact_compliance().unwrap();
-        let under = |amplitude_n| HarmonicContact {
-            mean_n: 0.04,
-            amplitude_n,
-            angular_frequency_rad_per_s: omega,
-            contact_compliance: &compliance,
-        };
+        let under = |amplitude_n| harmonic((0.04, amplitude_n), omega, &compliance);
         let load_n = 2e-6 / under(1.0).flat_punch(1e-3).0;
         let loss_j = approached.number(row, "energy_loss_j");
         // Second order in 200 steps per cycle.
@@ -318,32 +307,7 @@ fn the_loss_of_a_flat_punch_under_an_imposed_approach_is_that_of_the_complex_mod
     }
 }
 
-const SMALL: &str = r#"title = "small"
-
-[material]
-library = "pmma"
-
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-
-[drive]
-control = "load"
-segments = [
-    { kind = "step", to = "10 N", duration = "20 s" },
-    { kind = "ramp", to = "2 N", duration = "5 s" },
-    { kind = "sine", mean = "2 N", amplitude = "1 N", angular_frequency = "0.5 rad/s", cycles = 1 },
-]
-
-[time]
-step = "1 s"
-
-[output]
-profiles_at = ["0 s", "25 s"]
-
-[solver]
-springs = 100
-"#;
+const SMALL: &str = include_str!("../inputs/step-ramp-sine.toml");
 
 #[test]
 fn a_scenario_prints_its_end_and_leaves_every_file() {

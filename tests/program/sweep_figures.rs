@@ -1,27 +1,16 @@
 //! The figures of sweeps: what their data say, which there are, and what is left out.
 
-#![cfg(feature = "report")]
-
-use std::collections::BTreeSet;
-use std::fs;
-use std::path::Path;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
-
-use crate::common::{pmma_material, pmma_plan, punch, solid, sphere, sweep_plan};
-use crate::program::Table;
+use crate::prelude::*;
 use contact_dma::drive::{Control, HarmonicDrive};
 use contact_dma::engine::EngineKind;
 use contact_dma::indenter::{HeightMap, MapEdge, MapQuantity};
 use contact_dma::quantity::Dimension;
 use contact_dma::report;
-use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::plan::{Axes, AxisValue, AxisValues, Block, Condition, SweepPlan, Varied};
+use contact_dma::sweep::plan::{Axes, AxisValue, AxisValues, Block, Condition, Varied};
 use contact_dma::sweep::record::Status;
 use contact_dma::sweep::search::run::{self, Mode, Outcome};
 use contact_dma::sweep::store::Store;
 use contact_dma::sweep::store::files;
-use tempfile::TempDir;
 
 /// A sweep with what it left in its folder.
 struct Swept {
@@ -82,8 +71,7 @@ fn top_level(folder: &Path) -> BTreeSet<String> {
 fn pmma(angular_frequencies_rad_per_s: &[f64]) -> SweepPlan {
     let mut plan = pmma_plan(sphere(10e-3), 5.0);
     plan.angular_frequencies_rad_per_s = angular_frequencies_rad_per_s.to_vec();
-    plan.cycle.steps = 60;
-    plan.solver.springs = 120;
+    (plan.cycle.steps, plan.solver.springs) = (60, 120);
     plan
 }
 
@@ -175,8 +163,7 @@ fn integral(swept: &Swept) -> f64 {
 fn the_work_over_the_surface_adds_up_to_the_energy_loss_with_both_engines() {
     let springs = swept(pmma(&[0.00844]));
     let mut plan = pmma(&[0.00844]);
-    plan.solver.engine = EngineKind::HalfSpace;
-    plan.solver.cells = 64;
+    (plan.solver.engine, plan.solver.cells) = (EngineKind::HalfSpace, 64);
     let cells = swept(plan);
     for (swept, tolerance) in [
         // Trapezia over 120 springs, with steps of the contact's edge across them.
@@ -319,8 +306,7 @@ fn a_map_is_told_by_its_own_cells_whatever_the_plan_asks_for() {
         MapEdge::Unknown,
     );
     let mut plan = sweep_plan(pmma_material(), Arc::new(map.unwrap()), 1.0, 0.5);
-    plan.angular_frequencies_rad_per_s = vec![0.008];
-    plan.cycle.steps = 32;
+    (plan.angular_frequencies_rad_per_s, plan.cycle.steps) = (vec![0.008], 32);
     plan.solver.engine = EngineKind::HalfSpace;
     assert_eq!(plan.solver.cells, 128);
     let swept = swept(plan);
@@ -334,10 +320,8 @@ fn a_map_is_told_by_its_own_cells_whatever_the_plan_asks_for() {
 fn an_elastic_body_loses_nothing_and_is_not_asked_for_a_wider_sweep() {
     for engine in [EngineKind::Axisymmetric, EngineKind::HalfSpace] {
         let mut plan = pmma(&[0.01, 0.1, 1.0]);
-        plan.base.contact.material = Arc::new(solid(1e9, &[], 0.3));
-        plan.cycle.steps = 32;
-        plan.solver.engine = engine;
-        plan.solver.cells = 32;
+        (plan.base.contact.material, plan.cycle.steps) = (Arc::new(solid(1e9, &[], 0.3)), 32);
+        (plan.solver.engine, plan.solver.cells) = (engine, 32);
         let told = report::terminal::peaks(&plan, &swept(plan.clone()).outcome).to_string();
         assert!(told.contains("an elastic body loses nothing"), "{told}");
         for record in &swept(plan).outcome.records {

@@ -1,25 +1,18 @@
 //! Measured data as a material: from a CSV file to the contact, with a fit and without one.
 
-#![cfg(feature = "cli")]
-
+use crate::common::engines;
 use crate::common::pmma_material as pmma;
-use crate::common::random::Random;
-use crate::common::{engines, largest, series};
-use crate::plans;
-use crate::program::{Place, Table, program, says};
+use crate::prelude::*;
 use std::time::Duration;
 
 use contact_dma::contact::Prescribed;
 use contact_dma::history::{DirectMemory, Hereditary, March, Memory, TimeRule};
-use contact_dma::input::document::Document;
 use contact_dma::material::MaterialFunction;
 use contact_dma::material::fit::fit as fit_of;
 use contact_dma::material::tabulated::Tabulated;
 use contact_dma::prelude::*;
-use contact_dma::reference::steady::HarmonicContact;
 use contact_dma::reference::transient::step_load_contact_radius_m;
-use contact_dma::sweep::plan::SweepPlan;
-use contact_dma::sweep::plan::resolved::{self, resolved_text};
+use contact_dma::sweep::plan::resolved;
 use contact_dma::sweep::record::material_error;
 
 /// Ten samples per decade, from 0.1 s to 1000 s.
@@ -210,10 +203,8 @@ fn the_window_and_the_alternatives_of_a_fit_survive_the_resolved_file() {
     let (first_s, last_s) = material.origin.measured_window_s.unwrap();
     assert!((first_s - 0.1).abs() < 1e-12 && (last_s - 100.0).abs() < 1e-9);
     assert!(material.origin.alternatives.len() >= 2);
-    says(
-        &resolved_text(&plan),
-        &["measured = [", "[[material.alternative]]"],
-    );
+    let parts = ["measured = [", "[[material.alternative]]"];
+    says(&resolved_text(&plan), &parts);
     let again = plans::again(&plan).base.contact.material;
     assert_eq!(again.origin.alternatives, material.origin.alternatives);
     assert_eq!(again.origin.measured_window_s, Some((first_s, last_s)));
@@ -353,12 +344,8 @@ fn the_uncertainty_of_a_flat_punch_is_that_of_the_loss_compliance() {
     let omegas = [1e-2, 1.0, 30.0, 1e3];
     let sweep = sweep.angular_frequencies_rad_per_s(omegas).unwrap();
     let loss_j = |material: &Material, omega: f64| {
-        let exact = HarmonicContact {
-            mean_n: 1.0,
-            amplitude_n,
-            angular_frequency_rad_per_s: omega,
-            contact_compliance: &material.contact_compliance().unwrap(),
-        };
+        let compliance = material.contact_compliance().unwrap();
+        let exact = harmonic((1.0, amplitude_n), omega, &compliance);
         exact.flat_punch(radius_m).1
     };
     for record in sweep.solve().unwrap().records {

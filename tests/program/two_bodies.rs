@@ -1,10 +1,7 @@
 //! An indenter that is not rigid: two bodies, and what each of them dissipates.
 
-#![cfg(feature = "cli")]
-
+use crate::prelude::*;
 use std::collections::HashSet;
-
-use crate::program::{Place, Table, words};
 
 const COARSE: &str = r#"[sweep]
 angular_frequency = ["3e-3 rad/s", "0.03 rad/s"]

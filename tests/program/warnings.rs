@@ -1,14 +1,10 @@
 //! What lies outside the model is said on the terminal, in the record, in tables and on the page; and what lies inside is not.
 
-#![cfg(feature = "cli")]
-
 use crate::html::{between, unescaped};
-use crate::plans;
-use crate::program::{Place, SVG, pmma_sweep, says, words};
+use crate::prelude::*;
 use contact_dma::sweep::record::warning::Warning;
 use contact_dma::sweep::store::Store;
 use contact_dma::sweep::store::entry::Purpose;
-use serde_json::Value;
 
 const THREE: &str = r#"[sweep]
 angular_frequency = ["0.004 rad/s", "0.008 rad/s", "0.02 rad/s"]
@@ -120,22 +116,7 @@ fn ten_newtons_on_a_tip_of_ten_nanometres_are_warned_of_everywhere() {
 #[test]
 fn only_the_cases_that_are_outside_are_warned_of() {
     // A modulus of 0.9 GPa at rest and 1.5 GPa at once, and a strain of 1.2 %: glassy at high frequencies alone.
-    let text = r#"title = "leathery"
-[material]
-poisson_ratio = 0.4
-[material.relaxation]
-modulus = "longitudinal"
-equilibrium = "0.9 GPa"
-branches = [{ modulus = "0.6 GPa", time = "1 s" }]
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-[drive]
-mean = "24 N"
-amplitude = "1 N"
-[sweep]
-angular_frequency = ["0.01 rad/s", "0.1 rad/s", "10 rad/s", "100 rad/s"]
-"#;
+    let text = include_str!("../inputs/leathery.toml");
     let left = run("sweep", text, &[]);
     left.warns_of(&["large-strain"]);
     let glassy = "large-strain";
