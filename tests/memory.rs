@@ -7,17 +7,15 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use common::engines::half_space;
-use common::pmma;
+use common::engines::{cells_on, grid};
+use common::{pmma, pmma_material, pmma_plan, solid, sphere, sweep_plan, with, with_bars};
 use contact_dma::contact::Prescribed;
-use contact_dma::contact::half_space::convolution::Convolution;
-use contact_dma::contact::half_space::grid::Grid;
-use contact_dma::contact::half_space::{HalfSpace, SolverSettings, predicted_memory_bytes};
+use contact_dma::contact::half_space::predicted_memory_bytes;
 use contact_dma::drive::HarmonicDrive;
 use contact_dma::engine::EngineKind;
 use contact_dma::history::{March, TimeRule};
-use contact_dma::indenter::{Indenter, Shifted, Sphere};
-use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch, library};
+use contact_dma::indenter::{Shifted, Sphere};
+use contact_dma::material::Material;
 use contact_dma::sweep::Sweep;
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::case::checkpoint::Checkpoints;
@@ -52,16 +50,6 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-fn on_quarter(sphere: &Sphere, grid: Grid) -> HalfSpace {
-    let gap_m = |cell| {
-        let (x_m, y_m) = grid.center(cell);
-        sphere.gap_m(x_m, y_m)
-    };
-    let gaps_m = (0..grid.cells()).map(gap_m).collect();
-    let operator = Arc::new(Convolution::new(grid).unwrap());
-    HalfSpace::new(operator, gaps_m, true, SolverSettings::default())
-}
-
 /// Held by one test at a time, since what other threads take would be counted too.
 fn alone() -> MutexGuard<'static, ()> {
     static ONE: Mutex<()> = Mutex::new(());
@@ -78,47 +66,44 @@ fn peak(work: impl FnOnce()) -> usize {
 
 /// Twelve branches over five decades.
 fn twelve_branches() -> Material {
-    let branch = |k: i32| RelaxationBranch {
-        modulus_pa: 1e8,
-        time_s: 10_f64.powf(0.5 * f64::from(k)),
-    };
-    let relaxation = Relaxation::new(1e9, (0..12).map(branch).collect()).unwrap();
-    Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.4).unwrap()
+    let branch = |k| (1e8, 10_f64.powf(0.5 * f64::from(k)));
+    solid(1e9, &(0..12).map(branch).collect::<Vec<_>>(), 0.4)
 }
 
 #[test]
 fn a_case_holds_the_memory_predicted_whatever_material_and_engine() {
     let _alone = alone();
-    let sweep = |material, indenter: Arc<dyn Indenter>, mean: f64| {
-        let drive = HarmonicDrive::load(mean, 0.5 * mean).unwrap();
-        let mut plan = SweepPlan::new(material, indenter, drive);
-        (plan.angular_frequencies_rad_per_s, plan.cycle.steps) = (vec![0.1], 16);
-        plan.cycle.error_bars = false;
-        plan
+    let few_steps = |plan: SweepPlan| {
+        with(plan, |plan| {
+            plan.angular_frequencies_rad_per_s = vec![0.1];
+            plan.cycle.steps = 16;
+        })
     };
-    let pmma = || library::find("pmma").unwrap().material().unwrap();
-    let sphere = || Arc::new(Sphere::new(0.01).unwrap()) as Arc<dyn Indenter>;
+    let on_cells = |cells: usize, plan: SweepPlan| {
+        with(few_steps(plan), |plan| {
+            (plan.solver.engine, plan.solver.cells) = (EngineKind::HalfSpace, cells);
+        })
+    };
     // Off the origin there is no quarter to take.
-    let offset = || Arc::new(Shifted::new(sphere(), 1.37e-5, 7.1e-6).unwrap()) as Arc<dyn Indenter>;
-    let cells = |mut plan: SweepPlan, cells| {
-        (plan.solver.engine, plan.solver.cells) = (EngineKind::HalfSpace, cells);
-        plan
+    let offset = || Arc::new(Shifted::new(sphere(0.01), 1.37e-5, 7.1e-6).unwrap());
+    let pmma_on = |cells| on_cells(cells, pmma_plan(sphere(0.01), 5.0));
+    let twelve_on = |cells| {
+        let plan = sweep_plan(twelve_branches(), sphere(0.01), 10.0, 5.0);
+        on_cells(cells, plan)
     };
-    let mut plans = vec![
-        cells(sweep(pmma(), sphere(), 10.0), 256),
-        cells(sweep(pmma(), offset(), 10.0), 128),
-        cells(sweep(twelve_branches(), offset(), 10.0), 128),
-        cells(sweep(twelve_branches(), sphere(), 10.0), 192),
+    let marched = with(twelve_on(256), |plan| {
+        (plan.cycle.method, plan.cycle.at_cycle) = (Method::March, Some(2));
+    });
+    let springs = few_steps(pmma_plan(sphere(0.01), 5.0));
+    let plans = [
+        pmma_on(256),
+        on_cells(128, pmma_plan(offset(), 5.0)),
+        on_cells(128, sweep_plan(twelve_branches(), offset(), 10.0, 5.0)),
+        twelve_on(192),
+        marched,
+        with_bars(pmma_on(256)),
+        with(springs, |plan| plan.solver.springs = 2000),
     ];
-    let mut marched = cells(sweep(twelve_branches(), sphere(), 10.0), 256);
-    (marched.cycle.method, marched.cycle.at_cycle) = (Method::March, Some(2));
-    plans.push(marched);
-    let mut with_bars = cells(sweep(pmma(), sphere(), 10.0), 256);
-    with_bars.cycle.error_bars = true;
-    plans.push(with_bars);
-    let mut springs = sweep(pmma(), sphere(), 10.0);
-    springs.solver.springs = 2000;
-    plans.push(springs);
     let mut failed = Vec::new();
     for (k, plan) in plans.into_iter().enumerate() {
         let setup = Setup::new(plan).unwrap();
@@ -180,9 +165,8 @@ fn large_pictures_are_drawn_one_after_another_in_the_memory_predicted() {
 #[test]
 fn a_record_takes_its_own_bytes_however_long_the_plan_and_however_many_there_are() {
     let _alone = alone();
-    let material = library::find("pmma").unwrap().material().unwrap();
     let drive = HarmonicDrive::load(5.0, 2.0).unwrap();
-    let sweep = Sweep::new(material, Sphere::new(0.01).unwrap(), drive);
+    let sweep = Sweep::new(pmma_material(), Sphere::new(0.01).unwrap(), drive);
     let sweep = sweep.steps(16).unwrap().springs(16).unwrap();
     let sweep = sweep.frequencies_hz([1e-3]).unwrap();
     let setup = Setup::new(sweep.into_plan()).unwrap();
@@ -211,9 +195,8 @@ fn a_record_takes_its_own_bytes_however_long_the_plan_and_however_many_there_are
 #[test]
 fn another_amplitude_takes_no_operator_of_its_own() {
     let _alone = alone();
-    let material = library::find("pmma").unwrap().material().unwrap();
     let drive = HarmonicDrive::load(5.0, 1.0).unwrap();
-    let sweep = Sweep::new(material, Sphere::new(0.01).unwrap(), drive).cells(128);
+    let sweep = Sweep::new(pmma_material(), Sphere::new(0.01).unwrap(), drive).cells(128);
     let sweep = sweep.unwrap().frequencies_hz([1e-3]).unwrap();
     let amplitudes = (0..9).map(|k| 1.0 + 0.4 * f64::from(k));
     let plan = sweep.amplitudes(amplitudes).unwrap().into_plan();
@@ -247,13 +230,10 @@ fn a_march_holds_the_memory_predicted_and_takes_no_more_while_it_steps() {
         .into_iter()
         .chain([(128, true), (256, true), (512, true)])
     {
-        let grid = Grid::square(cells, 2.0 * half_width_m / cells as f64).unwrap();
+        let grid = grid(half_width_m, cells);
         let grid = grid.quarter().filter(|_| quarter).unwrap_or(grid);
         let before = HELD.load(Ordering::Relaxed);
-        let mut engine = match quarter {
-            true => on_quarter(&sphere, grid),
-            false => half_space(&sphere, half_width_m, cells),
-        };
+        let mut engine = cells_on(&sphere, grid);
         let mut march = March::new(&mut engine, compliance.clone(), TimeRule::Linear);
         march.jump(Prescribed::LoadN(load_n)).unwrap();
         let weights = march.weights(50.0);

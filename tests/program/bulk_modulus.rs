@@ -29,22 +29,10 @@ fn a_resolved_sweep_of_either_kind_of_moduli_gives_the_same_losses_again() {
     }
 }
 
-/// A material of a bulk modulus by itself.
-fn material() -> Place {
-    let series = series("shear");
-    let block = format!("[material]\nbulk_modulus = \"3 GPa\"\n{series}\n");
-    Place::with("bulk.toml", &block)
-}
-
 #[test]
 fn the_material_shows_how_its_poisson_ratio_grows() {
     // (3K - 2G)/(2(3K + G)) of 902 MPa and of 2 MPa.
     let parts = ["Bulk modulus 3 GPa", " 0 0.3634", "inf 0.4997"];
-    material().done("material show bulk.toml").says(&parts);
-}
-
-#[test]
-fn an_export_that_needs_a_poisson_ratio_says_so() {
-    let told = material().refused("material export bulk.toml --to abaqus");
-    says(&told, &["needs a Poisson ratio"]);
+    let place = Place::lent("bulk-modulus.toml");
+    place.done("material show bulk-modulus.toml").says(&parts);
 }

@@ -97,29 +97,8 @@ fn a_fractional_material_becomes_a_series_that_the_resolved_file_holds() {
 }
 
 #[test]
-fn segments_beside_a_sweep_are_told_of_both_commands() {
-    let segments = r#"segments = [{ kind = "step", to = "10 N", duration = "5 s" }]"#;
-    let both = small().replace("mean = \"10 N\"\namplitude = \"5 N\"", segments);
-    let place = Place::with("both.toml", &both);
-    for command in ["sweep", "simulate"] {
-        let told = place.refused(&format!("{command} both.toml"));
-        says(&told, &["segments in [drive]", "beside a table [sweep]"]);
-        says(&told, &["`contact-dma simulate ", "`contact-dma sweep "]);
-        assert!(!told.contains("unknown key"), "{told}");
-    }
-}
-
-#[test]
-fn a_mistake_in_a_flag_is_shown_in_the_flag() {
-    let told = place().refused("sweep small.toml --set 'indenter.radius=5 N'");
-    says(&told, &["--set indenter.radius=5 N", "a length"]);
-}
-
-#[test]
-fn an_unreadable_file_and_an_unwritable_folder_say_so() {
+fn an_unwritable_folder_says_so() {
     let place = place();
-    let told = place.refused("sweep /no/such/file.toml");
-    says(&told, &["/no/such/file.toml"]);
     // A file where the folder should be: unwritable even for root.
     let told = place.ends("sweep small.toml --out small.toml/out", 1);
     says(&told, &["small.toml/out", "cannot create the folder"]);
@@ -198,11 +177,6 @@ fn materials_are_listed_and_shown() {
         "- 8.3804e-5 exp(-0.00746991 t)",
         "E(0) = 2491.44 MPa",
     ]);
-    let told = place.refused("material show pmmma");
-    says(&told, &["did you mean \"pmma\""]);
-    // What is like none is answered with all.
-    let told = place.refused("material show pvc");
-    says(&told, &["The library has ", "pvb"]);
 }
 
 #[test]
@@ -247,8 +221,6 @@ fn help_has_examples_and_completions_are_made() {
         let script = place.done(&format!("completions {shell}"));
         script.says(&["contact-dma"]);
     }
-    place.refused("sweep");
-    place.refused("sweep x.toml --threads 0");
 }
 
 #[test]
@@ -306,23 +278,6 @@ fn tables_alone_are_written_where_no_figures_are_asked_for_and_drawn_elsewhere_l
     assert!(place.refused(report).contains("--force"));
     place.done(&format!("{report} --force"));
     assert!(is_same());
-}
-
-#[test]
-fn a_file_in_place_of_a_folder_is_told_before_anything_is_computed() {
-    let place = place();
-    for command in [
-        "sweep small.toml",
-        "simulate small.toml",
-        "report x",
-        "merge x",
-        "compare x y",
-        "reproduce",
-        "material show pmma",
-    ] {
-        let told = place.refused(&format!("{command} --out small.toml"));
-        says(&told, &["this is a file; name a folder"]);
-    }
 }
 
 #[test]

@@ -86,26 +86,10 @@ fn lend_sweeps(folder: &TempDir) {
 
 /// In place of Slurm a command that runs every task of an array, one after another.
 fn lend_a_cluster(folder: &TempDir) {
-    const SBATCH: &str = r#"#!/bin/sh
-set -eu
-[ "$1" = --parsable ]
-tasks=1-1
-for word; do case $word in
-    --array=*) tasks=${word#--array=} ;;
-    --dependency=afterany:7 | --parsable | --time=* | --mem=*) ;;
-    -*) echo "sbatch: unknown option $word" >&2; exit 1 ;;
-    *) script=$word ;;
-esac; done
-export SLURM_ARRAY_TASK_MIN=${tasks%-*} SLURM_ARRAY_TASK_MAX=${tasks#*-} SLURM_CPUS_PER_TASK=1
-export SLURM_ARRAY_TASK_COUNT=$((SLURM_ARRAY_TASK_MAX - SLURM_ARRAY_TASK_MIN + 1))
-for task in $(seq "$SLURM_ARRAY_TASK_MIN" "$SLURM_ARRAY_TASK_MAX"); do
-    SLURM_ARRAY_TASK_ID=$task bash "$script" >&2
-done
-echo 7
-"#;
+    let sbatch = include_str!("../inputs/sbatch");
     let bin = folder.path().join("bin");
     fs::create_dir(&bin).unwrap();
-    fs::write(bin.join("sbatch"), SBATCH).unwrap();
+    fs::write(bin.join("sbatch"), sbatch).unwrap();
     run(folder, Command::new("chmod").args(["+x", "bin/sbatch"]));
 }
 

@@ -269,7 +269,6 @@ fn an_unfinished_or_foreign_folder_is_told() {
     let place = Place::lent(HISTORIES);
     place.put("theirs/notes.txt", "mine");
     says(&place.refused("report theirs"), &["resolved.toml"]);
-    says(&place.refused("report nowhere"), &["nowhere"]);
     // A history that was killed before its first table.
     place.done("simulate springs.toml --no-figures --out out");
     for name in ["history.csv", "cycles.csv", "summary.json"] {

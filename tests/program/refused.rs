@@ -1,5 +1,5 @@
 //! Wrong inputs with all that is said of them: tests/refused/KIND/NAME.toml, or a file of data, beside it what it names, and in
-//! NAME.stderr the messages. `RENEW=1 cargo test --test program refused` writes these anew, to be read before they are committed.
+//! NAME.stderr the messages; and wrong command lines. `RENEW=1 cargo test --test program refused` writes these anew, to be read before they are committed.
 
 use crate::prelude::*;
 use std::fmt::Display;
@@ -89,6 +89,22 @@ fn every_wrong_file_is_refused_with_the_messages_beside_it() {
             );
         }
     }
+}
+
+/// Command lines, each beside files of tests/inputs, and in lines.stderr what is said of them.
+#[test]
+fn every_wrong_command_line_is_refused_with_the_message_beside_it() {
+    let place =
+        Place::lent("small.toml segments-beside-a-sweep.toml bulk-modulus.toml creep.csv dma.csv");
+    let before = place.files("");
+    let lines = fs::read_to_string("tests/refused/lines.txt").unwrap();
+    let told = lines.lines().map(|line| {
+        let run = place.run(line).ended(2);
+        assert_eq!(run.stdout, "", "{line}");
+        format!("$ contact-dma {line}\n{}\n", run.stderr)
+    });
+    assert_current("tests/refused/lines.stderr", &told.collect::<String>());
+    assert!(place.files("") == before);
 }
 
 #[test]

@@ -128,21 +128,6 @@ fn the_page_shows_its_figures_in_whatever_form_they_are_written() {
 }
 
 #[test]
-fn a_figure_that_is_not_computed_is_refused_with_those_that_are() {
-    let figures = FIGURES.join(", ");
-    for (number, why) in [
-        ("2", "it is a flowchart"),
-        ("14", "figures 1 to 13"),
-        ("all", "computed"),
-    ] {
-        let place = Place::new();
-        let told = place.refused(&format!("reproduce --figure {number} --out out"));
-        says(&told, &[why, &figures]);
-        assert!(!place.has("out"));
-    }
-}
-
-#[test]
 fn every_file_behind_a_figure_says_what_it_asks() {
     let files = behind_figures();
     assert!(files.len() > FIGURES.len());

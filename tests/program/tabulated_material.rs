@@ -110,6 +110,9 @@ fn the_printed_block_is_a_material_block_with_exact_numbers() {
         assert_eq!(material.relaxation(), expected.relaxation());
         assert_eq!(material.poisson_ratio(), Some(0.38));
         place.has_all(quantity, "fit.svg fit.png fit@2x.png fit-residual.svg");
+        let prony = place.table(&format!("{quantity}/prony.csv"));
+        assert_eq!(prony.columns, ["modulus_pa", "time_s"]);
+        assert!(prony.len() > 1 && prony.found("time_s")[0].is_none());
         let rows = place.table(&format!("{quantity}/fit.csv")).len();
         assert_eq!(rows, times_s().len());
     }
@@ -142,19 +145,6 @@ fn a_sweep_takes_its_material_from_a_table_beside_its_file_and_shows_the_misfit(
     shown.says(&["Misfit relative to the data", "E(0) = 2491.44 MPa"]);
     // In a flag, the path counts from the working folder.
     place.done("sweep project/sweep.toml --no-figures --out flag --set material.table.file=project/data/creep.csv");
-}
-
-#[test]
-fn a_table_or_a_number_that_no_material_has_is_refused_by_a_fit() {
-    let good = csv(MaterialFunction::Creep);
-    let fit = |text: &str, poisson_ratio: &str| {
-        let place = Place::with("data.csv", text);
-        let fit = "material fit data.csv --quantity creep --modulus shear --poisson-ratio";
-        place.refused(&format!("{fit} {poisson_ratio}"))
-    };
-    assert!(fit(&good, "0.7").contains("Poisson ratio is 0.7"));
-    let told = fit(&good.replace("\n1,", "\n0.5,"), "0.4");
-    says(&told, &["--> data.csv:12:1", "must increase"]);
 }
 
 /// A sweep of this material under a sphere, or why there is none.
@@ -597,33 +587,4 @@ fn shift_factors_that_were_given_have_no_errors_and_without_a_poisson_ratio_the_
     assert!(!block.contains("\npoisson_ratio"), "{block}");
     let errors = place.table("out/shift.csv").found("log10_a_t_error");
     assert!(errors.iter().all(Option::is_none));
-    for (more, words) in [
-        ("--shift b.csv", "there is no such file"),
-        ("--reference-temperature 25", "'25 °C'"),
-        ("--branches 0", "a whole number from 1"),
-        ("--flow true", "--flow is for creep"),
-        ("--format pyvisco", "--data-format pyvisco"),
-        ("--format xml", "invalid value"),
-    ] {
-        let told = place.refused(&format!("{FIT_DYNAMIC} {more}"));
-        assert!(told.contains(words), "{told}");
-    }
-}
-
-#[test]
-fn what_is_for_dynamic_data_is_refused_for_creep() {
-    let place = Place::with("creep.csv", &csv(MaterialFunction::Creep));
-    let creep = "material fit creep.csv --quantity creep --modulus shear";
-    for (more, words) in [
-        ("", "--poisson-ratio <NU>"),
-        ("--poisson-ratio 0.38 --shift wlf", "for --quantity dynamic"),
-        ("creep.csv --poisson-ratio 0.38", "one table"),
-    ] {
-        let told = place.refused(&format!("{creep} {more}"));
-        assert!(told.contains(words), "{told}");
-    }
-    place.done(&format!("{creep} --poisson-ratio 0.38 --out out"));
-    let prony = place.table("out/prony.csv");
-    assert_eq!(prony.columns, ["modulus_pa", "time_s"]);
-    assert!(prony.len() > 1 && prony.found("time_s")[0].is_none());
 }
