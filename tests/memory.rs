@@ -224,7 +224,7 @@ fn a_march_holds_the_memory_predicted_and_takes_no_more_while_it_steps() {
     let sphere = Sphere::new(radius_m).unwrap();
     let compliance = pmma();
     let relaxed = compliance.equilibrium_compliance().unwrap();
-    let half_width_m = 1.1 * (0.75 * load_n * radius_m * relaxed).cbrt();
+    let half_width_m = 1.1 * common::hertz_radius_m(radius_m, load_n, relaxed);
     let whole = [64, 100, 128, 256].map(|cells| (cells, false));
     for (cells, quarter) in whole
         .into_iter()

@@ -41,11 +41,14 @@ pub fn cells_on(indenter: &dyn Indenter, grid: Grid) -> HalfSpace {
 
 /// The same to a tolerance.
 pub fn cells_to(indenter: &dyn Indenter, grid: Grid, tolerance: f64) -> HalfSpace {
-    let settings = SolverSettings {
+    cells_with(indenter, grid, to_tolerance(tolerance))
+}
+
+pub fn to_tolerance(tolerance: f64) -> SolverSettings {
+    SolverSettings {
         tolerance,
         ..SolverSettings::default()
-    };
-    cells_with(indenter, grid, settings)
+    }
 }
 
 pub fn cells_with(indenter: &dyn Indenter, grid: Grid, settings: SolverSettings) -> HalfSpace {

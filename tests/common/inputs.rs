@@ -81,14 +81,15 @@ pub fn scenario_file(bytes: &[u8]) -> bool {
 pub fn quantity(bytes: &[u8]) -> bool {
     let text = String::from_utf8_lossy(bytes);
     let mut accepted = false;
+    use Dimension::{Angle, AngularFrequency, Compliance, Force, Length, Stress, Time};
     for dimension in [
-        Dimension::Length,
-        Dimension::Stress,
-        Dimension::AngularFrequency,
-        Dimension::Time,
-        Dimension::Force,
-        Dimension::Compliance,
-        Dimension::Angle,
+        Length,
+        Stress,
+        AngularFrequency,
+        Time,
+        Force,
+        Compliance,
+        Angle,
     ] {
         match quantity::parse(&text, dimension) {
             Ok(value) => {
@@ -193,14 +194,6 @@ pub enum Table {
 }
 
 impl Table {
-    pub const ALL: [Self; 5] = [
-        Self::Creep,
-        Self::Relaxation,
-        Self::DirectCreep,
-        Self::Load,
-        Self::Profile,
-    ];
-
     fn naming(self) -> String {
         let measured = |quantity: &str, evaluation: &str| {
             format!(
@@ -240,7 +233,9 @@ impl Tables {
         let Some((first, table)) = bytes.split_first() else {
             return false;
         };
-        self.check(Table::ALL[usize::from(*first) % Table::ALL.len()], table)
+        use Table::{Creep, DirectCreep, Load, Profile, Relaxation};
+        let all = [Creep, Relaxation, DirectCreep, Load, Profile];
+        self.check(all[usize::from(*first) % all.len()], table)
     }
 
     /// A table becomes a material, a drive or an indenter, or is refused.

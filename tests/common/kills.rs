@@ -53,14 +53,14 @@ pub fn leave_half_a_file(folder: &Path) -> PathBuf {
     path
 }
 
-/// Starts the program with these arguments and an output folder.
+/// Starts the program with these arguments and an output folder; what it says on standard error can be read.
 pub fn start(arguments: &[&str], out: &Path) -> Child {
     Process::new(assert_cmd::cargo::cargo_bin("contact-dma"))
         .args(arguments)
         .args(["--quiet", "--out"])
         .arg(out)
         .stdout(Stdio::null())
-        .stderr(Stdio::null())
+        .stderr(Stdio::piped())
         .spawn()
         .unwrap()
 }
@@ -70,6 +70,24 @@ pub fn signal(child: &Child, name: &str) {
         .args([name, &child.id().to_string()])
         .status();
     assert!(sent.unwrap().success());
+}
+
+/// Ends a run by a signal, which it hears unless it is killed by it; how long that takes.
+#[track_caller]
+pub fn stopped(mut child: Child, how: &str) -> Duration {
+    let sent = Instant::now();
+    signal(&child, how);
+    let code = child.wait().unwrap().code();
+    assert_eq!(code, (how != "-KILL").then_some(130), "{how}");
+    sent.elapsed()
+}
+
+/// Changes a bit in the middle of a file.
+pub fn damage(path: &Path) {
+    let mut bytes = fs::read(path).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(path, bytes).unwrap();
 }
 
 pub fn wait_for(what: &str, ready: impl Fn() -> bool) {

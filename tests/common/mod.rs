@@ -10,9 +10,10 @@ pub mod solids;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use contact_dma::contact::half_space::layer::Base;
 use contact_dma::drive::{HarmonicDrive, Segment};
 use contact_dma::engine::EngineKind;
-use contact_dma::indenter::{Cone, FlatPunch, Indenter, Sphere};
+use contact_dma::indenter::{Asperity, Cone, FlatPunch, Indenter, Sphere};
 use contact_dma::material::{
     Compressibility, Creep, CreepBranch, Material, ModulusKind, Relaxation, RelaxationBranch,
     classical, library,
@@ -21,6 +22,7 @@ use contact_dma::reference::steady::HarmonicContact;
 use contact_dma::simulation::{Simulation, SimulationEnd, SimulationOutcome, scenario};
 use contact_dma::sweep::Sweep;
 use contact_dma::sweep::case::Setup;
+use contact_dma::sweep::plan::layer::LayerPlan;
 use contact_dma::sweep::plan::{Case, SweepPlan};
 use contact_dma::sweep::record::error_bars::Quantity;
 use contact_dma::sweep::record::{CaseRecord, CaseResult, Status};
@@ -88,7 +90,37 @@ pub fn maxwell() -> Creep {
 // Indenters.
 
 pub fn sphere(radius_m: f64) -> Arc<dyn Indenter> {
-    Arc::new(Sphere::new(radius_m).unwrap())
+    Arc::new(ball(radius_m))
+}
+
+/// The same as a type of its own.
+pub fn ball(radius_m: f64) -> Sphere {
+    Sphere::new(radius_m).unwrap()
+}
+
+/// One summit of several: where it stands, its radius and its height (m).
+pub fn asperity((center_x_m, center_y_m): (f64, f64), radius_m: f64, height_m: f64) -> Asperity {
+    Asperity {
+        center_x_m,
+        center_y_m,
+        radius_m,
+        height_m,
+    }
+}
+
+/// The contact radius of a sphere by Hertz: a^3 = (3/4) W R C.
+pub fn hertz_radius_m(radius_m: f64, load_n: f64, compliance_per_pa: f64) -> f64 {
+    (0.75 * load_n * radius_m * compliance_per_pa).cbrt()
+}
+
+/// A layer that is bonded to a rigid base.
+pub fn bonded(thickness_m: f64) -> LayerPlan {
+    LayerPlan {
+        thickness_m,
+        base: Base::Bonded,
+        base_modulus_ratio: None,
+        base_poisson_ratio: None,
+    }
 }
 
 pub fn cone(half_angle_rad: f64) -> Arc<dyn Indenter> {

@@ -4,58 +4,20 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::io::Read;
 use std::path::Path;
-use std::process::{Child, Command as Process, Output, Stdio};
+use std::process::{Child, Output};
 
-use crate::kills::{assert_same, signal, wait_for};
-use crate::program::{Place, pmma_sweep, says};
+use crate::kills::{assert_same, signal, start, stopped, wait_for};
+use crate::program::{Place, says};
 use crate::segments;
 use contact_dma::sweep::plan::resolved::hash;
 
-/// Two cases, of a few milliseconds each, and figures that are drawn quickly.
-const SMALL: &str = r#"[sweep]
-angular_frequency = ["0.01 rad/s", "0.02 rad/s"]
-[cycle]
-steps = 24
-error_bars = false
-[solver]
-springs = 32
-[figures]
-formats = ["svg"]
-"#;
-
-/// Two hundred of them.
+/// Two hundred cases in place of three.
 const MANY: [&str; 4] = [
     "--threads",
     "1",
     "--set",
     "sweep.angular_frequency={from=\"1e-3 rad/s\",to=\"1 rad/s\",points=200}",
 ];
-
-const SCENARIO: &str = r#"title = "a step"
-material.library = "pmma"
-indenter = { shape = "sphere", radius = "10 mm" }
-[drive]
-segments = [{ kind = "step", to = "10 N", duration = "10 s" }]
-[time]
-step = "1 s"
-[output]
-error_bars = false
-[solver]
-springs = 32
-[figures]
-formats = ["svg"]
-"#;
-
-fn start(arguments: &[&str], out: &Path) -> Child {
-    Process::new(assert_cmd::cargo::cargo_bin("contact-dma"))
-        .args(arguments)
-        .args(["--quiet", "--out"])
-        .arg(out)
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap()
-}
 
 /// Starts all of them and waits for their ends.
 fn together(commands: &[Vec<&str>], out: &Path) -> Vec<Output> {
@@ -66,8 +28,7 @@ fn together(commands: &[Vec<&str>], out: &Path) -> Vec<Output> {
 
 /// A folder with two plans, of which the sweep is computed undisturbed in `whole`; the path of the sweep's file.
 fn small() -> (Place, String) {
-    let place = Place::with("small.toml", &pmma_sweep(SMALL));
-    place.put("step.toml", SCENARIO);
+    let place = Place::lent("small.toml step.toml");
     place.done("sweep small.toml --quiet --out whole");
     let file = place.path("small.toml").to_str().unwrap().to_owned();
     (place, file)
@@ -250,9 +211,8 @@ fn a_killed_process_leaves_its_folder_to_the_next_one_whatever_that_is() {
     let many = MANY.map(|argument| format!("'{argument}'")).join(" ");
     for (out, more, records) in [("out", &*many, 200), ("few", "--force", 2)] {
         let folder = place.path(out);
-        let mut killed = begun(&file, &folder);
-        signal(&killed, "-KILL");
-        killed.wait().unwrap();
+        let killed = begun(&file, &folder);
+        stopped(killed, "-KILL");
         place.done(&format!("sweep small.toml --quiet --out {out} {more}"));
         let (plans, found) = hashes(&folder);
         assert!(plans.len() == 1 && found >= records, "{plans:?} {found}");

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 use std::process::{Child, Command as Process, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use crate::kills::{signal, wait_for};
+use crate::kills::{signal, stopped, wait_for};
 use crate::program::{Place, pmma_sweep};
 use crate::segments;
 
@@ -50,13 +50,10 @@ fn a_command_that_has_nothing_to_keep_ends_at_once() {
     for arguments in commands {
         for how in ["-TERM", "-INT", "-HUP"] {
             // It waits for an input that does not come.
-            let mut child = after(listening, arguments, &place.path(""));
+            let child = after(listening, arguments, &place.path(""));
             std::thread::sleep(Duration::from_millis(300));
-            let sent = Instant::now();
-            signal(&child, how);
-            let status = child.wait().unwrap();
-            assert_eq!(status.code(), Some(130), "{arguments:?} {how}");
-            assert!(sent.elapsed() < Duration::from_secs(2), "{arguments:?}");
+            let took = stopped(child, how);
+            assert!(took < Duration::from_secs(2), "{arguments:?}");
         }
     }
 }
@@ -66,13 +63,12 @@ fn a_hangup_is_nothing_where_whoever_started_it_ignores_it() {
     let place = Place::with("cells.toml", &on_cells(256));
     let out = place.path("out");
     let sweep = ["sweep", "cells.toml", "--no-figures", "--out", "out"];
-    let mut child = after("trap '' HUP;", &sweep, &place.path(""));
+    let child = after("trap '' HUP;", &sweep, &place.path(""));
     wait_for("no case was finished", || segments::count(&out) > 0);
     signal(&child, "-HUP");
     let before = segments::count(&out);
     wait_for("it did not go on", || segments::count(&out) > before + 1);
-    signal(&child, "-TERM");
-    assert_eq!(child.wait().unwrap().code(), Some(130));
+    stopped(child, "-TERM");
 }
 
 #[test]

@@ -6,8 +6,8 @@ use std::process::Child;
 use std::time::{Duration, Instant, SystemTime};
 
 use crate::kills::{
-    assert_same, kill_at_any_moment, leave_half_a_file, newest, results, set_clock_back_and_forth,
-    signal, wait_for,
+    assert_same, damage, kill_at_any_moment, leave_half_a_file, newest, results,
+    set_clock_back_and_forth, stopped, wait_for,
 };
 use crate::program::{Place, Run, says};
 
@@ -56,11 +56,9 @@ fn a_history_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
         let out = place.path("out");
         let checkpoints = out.join("checkpoints");
         for how in ["-KILL", "-TERM", "-KILL"] {
-            let mut child = start(&place, &OFTEN);
+            let child = start(&place, &OFTEN);
             wait_for_progress(&checkpoints, newest(&checkpoints));
-            signal(&child, how);
-            let status = child.wait().unwrap();
-            assert!(how == "-KILL" || status.code() == Some(130), "{name}");
+            stopped(child, how);
             assert!(checkpoints.join("history").exists(), "{name}: too quick");
             set_clock_back_and_forth(&out);
         }
@@ -90,14 +88,11 @@ fn kills_at_any_moment_lose_nothing() {
 fn a_termination_is_heard_within_a_long_instant_and_leaves_a_checkpoint() {
     let place = of(CELLS);
     let fine = "solver.tolerance=1e-13";
-    let mut child = start(&place, &["--set", "solver.cells=512", "--set", fine]);
+    let child = start(&place, &["--set", "solver.cells=512", "--set", fine]);
     let plan = place.path("out/resolved.toml");
     wait_for("the history did not start", || plan.exists());
     std::thread::sleep(Duration::from_secs(4));
-    let sent = Instant::now();
-    signal(&child, "-TERM");
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-    let took = sent.elapsed();
+    let took = stopped(child, "-TERM");
     assert!(took < Duration::from_secs(2), "{took:?}");
     assert!(place.has("out/checkpoints/history"));
 }
@@ -107,15 +102,11 @@ fn a_damaged_checkpoint_is_named_and_not_used() {
     let place = of(FLUID);
     let out = place.path("out");
     place.done("simulate history.toml --quiet --out whole");
-    let mut child = start(&place, &OFTEN);
+    let child = start(&place, &OFTEN);
     let path = out.join("checkpoints/history");
     wait_for("no checkpoint was written", || path.exists());
-    signal(&child, "-KILL");
-    child.wait().unwrap();
-    let mut bytes = fs::read(&path).unwrap();
-    let middle = bytes.len() / 2;
-    bytes[middle] ^= 1;
-    fs::write(&path, bytes).unwrap();
+    stopped(child, "-KILL");
+    damage(&path);
     // What was being written when the process was killed is swept out of every folder.
     for name in ["profiles", "fields"] {
         leave_half_a_file(&out.join(name));
@@ -130,10 +121,9 @@ fn a_damaged_checkpoint_is_named_and_not_used() {
 fn a_changed_scenario_is_refused_and_its_checkpoint_stays() {
     let place = of(FLUID);
     let out = place.path("out");
-    let mut child = start(&place, &OFTEN);
+    let child = start(&place, &OFTEN);
     wait_for_progress(&out.join("checkpoints"), None);
-    signal(&child, "-TERM");
-    child.wait().unwrap();
+    stopped(child, "-TERM");
     let before = results(&out);
     let changed = "--set 'time.step=\"0.3 s\"'";
     let refused = simulate(&place, changed).ended(2).stderr;

@@ -7,42 +7,17 @@ use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
 use crate::kills::{
-    assert_same, kill_at_any_moment, leave_half_a_file, newest, results, set_clock_back_and_forth,
-    signal, wait_for,
+    assert_same, damage, kill_at_any_moment, leave_half_a_file, newest, results,
+    set_clock_back_and_forth, signal, stopped, wait_for,
 };
-use crate::program::{Place, Run, below, pmma_sweep, says};
+use crate::program::{Place, Run, below, says};
 use crate::segments::{self, Stored};
 
 /// Sixty cases of a few milliseconds.
-fn cheap() -> String {
-    let frequencies = "{ from = \"1e-3 rad/s\", to = \"1 rad/s\", points = 60 }";
-    pmma_sweep(&format!(
-        "[sweep]
-angular_frequency = {frequencies}
-[cycle]
-steps = 40
-[solver]
-springs = 64
-"
-    ))
-}
+const CHEAP: &str = include_str!("../inputs/cheap.toml");
 
 /// One case that marches through thousands of cycles.
-fn long() -> String {
-    let cycle = "steps = 200
-method = \"march\"
-tolerance = 1e-9
-max_cycles = 100000";
-    pmma_sweep(&format!(
-        "[sweep]
-angular_frequency = [\"20 rad/s\"]
-[cycle]
-{cycle}
-[solver]
-springs = 160
-"
-    ))
-}
+const LONG: &str = include_str!("../inputs/long.toml");
 
 /// A folder with a sweep file.
 fn of(text: &str) -> Place {
@@ -57,10 +32,10 @@ fn undisturbed(text: &str) -> Place {
     place
 }
 
-/// [`cheap`] and [`long`] undisturbed, computed once for all tests.
+/// [`CHEAP`] and [`LONG`] undisturbed, computed once for all tests.
 static WHOLE: [LazyLock<Place>; 2] = [
-    LazyLock::new(|| undisturbed(&cheap())),
-    LazyLock::new(|| undisturbed(&long())),
+    LazyLock::new(|| undisturbed(CHEAP)),
+    LazyLock::new(|| undisturbed(LONG)),
 ];
 
 fn whole_cheap() -> PathBuf {
@@ -73,7 +48,7 @@ fn whole_long() -> PathBuf {
 
 /// A copy of [`whole_cheap`] in `out`, to be damaged.
 fn copy_of_cheap() -> (Place, PathBuf) {
-    let place = of(&cheap());
+    let place = of(CHEAP);
     let out = place.path("out");
     let mut copying = Process::new("cp");
     copying.arg("-r").arg(whole_cheap()).arg(&out);
@@ -123,7 +98,7 @@ fn finished_cases_are_read_and_damaged_ones_named_and_computed_again() {
 
 #[test]
 fn a_record_of_a_newer_program_is_not_replaced_unless_told_to() {
-    let place = of(&cheap());
+    let place = of(CHEAP);
     let out = place.path("out");
     let one = "--quiet --set sweep.angular_frequency=[0.01]";
     sweep(&place, one).ended(0);
@@ -169,7 +144,7 @@ fn records_of_another_build_are_computed_again_by_a_sweep_and_shown_by_a_report(
 /// Ten kills; `CONTACT_DMA_KILLS=100 cargo test --test interruption survival` for more.
 #[test]
 fn kills_at_any_moment_lose_nothing() {
-    let place = of(&cheap());
+    let place = of(CHEAP);
     let started = Instant::now();
     place.done("sweep sweep.toml --quiet --out whole");
     let end = || {
@@ -182,15 +157,14 @@ fn kills_at_any_moment_lose_nothing() {
 
 #[test]
 fn a_long_case_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
-    let long = long();
-    let searched = long
+    let searched = LONG
         .replace("method = \"march\"\ntolerance = 1e-9", "tolerance = 1e-12")
         .replace("steps = 200", "steps = 100000");
-    let cells = long
+    let cells = LONG
         .replace("20 rad/s", "2 rad/s")
         .replace("steps = 200", "steps = 48")
         .replace("springs = 160", "engine = \"half-space\"\ncells = 32");
-    let ways = [("march", &long), ("search", &searched), ("cells", &cells)];
+    let ways = [("march", LONG), ("search", &searched), ("cells", &cells)];
     for (name, text) in ways {
         let place = of(text);
         let whole = match name {
@@ -204,13 +178,11 @@ fn a_long_case_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
         let case = out.join("checkpoints/0000");
         for how in ["-KILL", "-TERM"] {
             let often = ["--checkpoint-every", "0", "--threads", "1"];
-            let mut child = start(&place, &often);
+            let child = start(&place, &often);
             let before = newest(&case);
             wait_for("no checkpoint was written", || newest(&case) > before);
             std::thread::sleep(Duration::from_millis(30));
-            signal(&child, how);
-            let status = child.wait().unwrap();
-            assert!(how == "-KILL" || status.code() == Some(130), "{name}");
+            stopped(child, how);
             assert_eq!(segments::count(&out), 0, "{name}: too quick");
         }
         sweep(&place, "--quiet").ended(0);
@@ -224,15 +196,14 @@ fn a_long_case_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
 #[test]
 fn a_clock_that_jumps_between_interruption_and_resumption_changes_nothing() {
     for (text, whole, what) in [
-        (cheap(), whole_cheap(), "records"),
-        (long(), whole_long(), "checkpoints/0000"),
+        (CHEAP, whole_cheap(), "records"),
+        (LONG, whole_long(), "checkpoints/0000"),
     ] {
-        let place = of(&text);
+        let place = of(text);
         let out = place.path("out");
-        let mut child = start(&place, &["--checkpoint-every", "0", "--threads", "1"]);
+        let child = start(&place, &["--checkpoint-every", "0", "--threads", "1"]);
         wait_for("nothing was written", || newest(&out.join(what)).is_some());
-        signal(&child, "-TERM");
-        assert_eq!(child.wait().unwrap().code(), Some(130));
+        stopped(child, "-TERM");
         // What a killed process leaves is swept out, however old or young it claims to be.
         let left_over = leave_half_a_file(&out);
         set_clock_back_and_forth(&out);
@@ -268,40 +239,33 @@ fn the_time_of_day_is_asked_for_stamps_alone() {
 
 #[test]
 fn a_damaged_checkpoint_is_passed_over() {
-    let place = of(&long());
-    let mut child = start(&place, &["--checkpoint-every", "0"]);
+    let place = of(LONG);
+    let child = start(&place, &["--checkpoint-every", "0"]);
     let path = place.path("out").join("checkpoints/0000/00.finished");
     wait_for("no checkpoint was written", || path.exists());
-    signal(&child, "-KILL");
-    child.wait().unwrap();
-    let mut bytes = fs::read(&path).unwrap();
-    let middle = bytes.len() / 2;
-    bytes[middle] ^= 1;
-    fs::write(&path, bytes).unwrap();
+    stopped(child, "-KILL");
+    damage(&path);
     sweep(&place, "--quiet").ended(0);
     assert_same(&place.path("out"), &whole_long());
 }
 
 #[test]
 fn a_termination_is_heard_within_an_instant_of_the_finest_grid() {
-    let place = of(&cheap());
+    let place = of(CHEAP);
     let out = place.path("out");
     let engine = "solver.engine=\"half-space\"";
-    let mut child = start(&place, &["--set", engine, "--set", "solver.cells=256"]);
+    let child = start(&place, &["--set", engine, "--set", "solver.cells=256"]);
     let plan = out.join("resolved.toml");
     wait_for("the sweep did not start", || plan.exists());
     std::thread::sleep(Duration::from_secs(2));
-    let sent = Instant::now();
-    signal(&child, "-TERM");
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-    let waited = sent.elapsed();
+    let waited = stopped(child, "-TERM");
     assert!(waited < Duration::from_secs(2), "{waited:?}");
 }
 
 /// Of more than 200 cases only those that figures choose have files of their own, and a partial report chooses others.
 #[test]
 fn the_files_of_a_partial_report_of_a_large_sweep_do_not_outlast_it() {
-    let many = cheap().replace("points = 60", "points = 240") + "[figures]\nformats = [\"svg\"]\n";
+    let many = CHEAP.replace("points = 60", "points = 240") + "[figures]\nformats = [\"svg\"]\n";
     let place = of(&many);
     let out = place.path("out");
     place.done("sweep sweep.toml --quiet --out whole");
@@ -322,20 +286,19 @@ fn the_files_of_a_partial_report_of_a_large_sweep_do_not_outlast_it() {
 
 #[test]
 fn a_second_interrupt_ends_the_program_at_once_and_the_next_run_goes_on() {
-    let place = of(&cheap());
+    let place = of(CHEAP);
     let out = place.path("out");
-    let mut child = start(&place, &["--threads", "1"]);
+    let child = start(&place, &["--threads", "1"]);
     wait_for("no case was finished", || segments::count(&out) > 2);
     signal(&child, "-INT");
-    signal(&child, "-INT");
-    assert_eq!(child.wait().unwrap().code(), Some(130));
+    stopped(child, "-INT");
     sweep(&place, "--quiet").ended(0);
     assert_same(&out, &whole_cheap());
 }
 
 #[test]
 fn an_interrupted_sweep_says_so_and_has_a_table_of_what_is_finished() {
-    let slow = cheap().replace("points = 60", "points = 400");
+    let slow = CHEAP.replace("points = 60", "points = 400");
     let place = of(&slow.replace("steps = 40", "steps = 2000"));
     let out = place.path("out");
     let child = Process::new(assert_cmd::cargo::cargo_bin("contact-dma"))
@@ -356,7 +319,7 @@ fn an_interrupted_sweep_says_so_and_has_a_table_of_what_is_finished() {
 
 #[test]
 fn a_second_process_that_computes_the_same_sweep_is_refused_and_the_first_goes_on() {
-    let place = of(&cheap());
+    let place = of(CHEAP);
     let out = place.path("out");
     let mut first = start(&place, &["--threads", "1"]);
     wait_for("no case was finished", || segments::count(&out) > 2);
@@ -395,7 +358,7 @@ impl Drop for Small {
 
 #[test]
 fn a_full_disk_is_told_and_what_was_whole_before_stays_whole() {
-    let place = of(&cheap());
+    let place = of(CHEAP);
     let out = place.path("out");
     let Some(disk) = Small::mount(&out, "size=200k") else {
         println!("skipped: no small file system can be mounted here");
@@ -422,7 +385,7 @@ fn a_full_disk_is_told_and_what_was_whole_before_stays_whole() {
 
 #[test]
 fn folders_that_cannot_be_written_or_are_not_there_are_named() {
-    let place = of(&cheap());
+    let place = of(CHEAP);
     let out = place.path("out");
     match Small::mount(&out, "size=200k,ro") {
         Some(_disk) => {
@@ -439,7 +402,7 @@ fn folders_that_cannot_be_written_or_are_not_there_are_named() {
 
 #[test]
 fn shards_in_folders_of_their_own_merge_to_the_result_of_one_process() {
-    let refined = cheap().replace("points = 60", "points = 12");
+    let refined = CHEAP.replace("points = 60", "points = 12");
     let place = of(&refined.replace("[cycle]", "refine = true\n[cycle]"));
     place.done("sweep sweep.toml --quiet --out whole");
     for k in 1..=3 {
@@ -459,7 +422,7 @@ fn shards_in_folders_of_their_own_merge_to_the_result_of_one_process() {
 
 #[test]
 fn shards_in_one_folder_end_with_the_result_of_one_process() {
-    let place = of(&cheap());
+    let place = of(CHEAP);
     let out = place.path("out");
     sweep(&place, "--quiet --shard 2/3").ended(0);
     // The same shard twice, and the two others, all at once.
@@ -505,7 +468,7 @@ fn tables_and_figures_are_drawn_again_from_records_alone() {
 
 #[test]
 fn more_threads_than_any_machine_has_a_use_for_are_not_started() {
-    let place = of(&cheap());
+    let place = of(CHEAP);
     place.done("sweep sweep.toml --quiet --threads 1 --out few");
     place.done("sweep sweep.toml --quiet --threads 100000 --out many");
     assert_same(&place.path("few"), &place.path("many"));
@@ -518,7 +481,7 @@ fn more_threads_than_any_machine_has_a_use_for_are_not_started() {
 
 #[test]
 fn pictures_and_run_json_say_where_they_come_from() {
-    let place = of(&cheap());
+    let place = of(CHEAP);
     sweep(&place, "--quiet --threads 2").ended(0);
     let [run, summary] = ["run", "summary"].map(|name| place.json(&format!("out/{name}.json")));
     let hash = summary["sweep_hash"].as_str().unwrap();
@@ -544,7 +507,7 @@ fn pictures_and_run_json_say_where_they_come_from() {
 
 #[test]
 fn a_plan_tells_cases_and_cost_and_computes_nothing() {
-    let place = of(&cheap());
+    let place = of(CHEAP);
     for run in ["plan sweep.toml", "sweep sweep.toml --dry-run --out out"] {
         let cost = ["60 cases on 64 springs", "Time: about", "Memory: about"];
         place.done(run).says(&cost).says(&["Shards: 1"]);
@@ -557,7 +520,7 @@ fn a_sweep_that_was_moved_with_its_data_and_renamed_goes_on() {
     let place = Place::new();
     let put = |file: &str, data: &str| {
         let profile = format!("shape = \"profile\"\nfile = \"{data}\"");
-        let text = cheap().replace("shape = \"sphere\"\nradius = \"10 mm\"", &profile);
+        let text = CHEAP.replace("shape = \"sphere\"\nradius = \"10 mm\"", &profile);
         place.put(file, text.replace("points = 60", "points = 3"));
     };
     let found = |out: &str| {

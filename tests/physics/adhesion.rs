@@ -13,7 +13,7 @@ const PULL_OFF_N: f64 = TAU * WORK * RADIUS_M;
 
 fn sweep(material: Material, (mean_n, amplitude_n): (f64, f64)) -> Sweep {
     let drive = HarmonicDrive::load(mean_n, amplitude_n).unwrap();
-    Sweep::new(material, Sphere::new(RADIUS_M).unwrap(), drive)
+    Sweep::new(material, ball(RADIUS_M), drive)
 }
 
 /// At 1 rad/s.
@@ -98,7 +98,7 @@ fn a_load_below_the_pull_off_load_and_what_has_none_are_refused() {
     let cone = Sweep::new(elastic(), Cone::new(1.2).unwrap(), drive);
     assert!(told(cone).contains("sphere"));
     let approach = HarmonicDrive::approach(1e-9, 5e-10).unwrap();
-    let approach = Sweep::new(elastic(), Sphere::new(RADIUS_M).unwrap(), approach);
+    let approach = Sweep::new(elastic(), ball(RADIUS_M), approach);
     assert!(told(approach).contains("prescribed load"));
     for work in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(of(1e-6, 1e-7).attracted(work).is_err(), "{work}");

@@ -1,21 +1,12 @@
 //! Contacts that are not one disc about the origin: found wherever they lie, and read as moduli by their own stiffness.
 
 use crate::prelude::*;
-use contact_dma::indenter::{Asperity, Shifted};
+use contact_dma::indenter::Shifted;
 use contact_dma::simulation::{SimulationEnd, SimulationOutcome};
 
-fn bump(center_x_m: f64) -> Asperity {
-    Asperity {
-        center_x_m,
-        center_y_m: 0.0,
-        radius_m: 0.01,
-        height_m: 0.0,
-    }
-}
-
-/// Two of them.
 fn bumps(half_m: f64) -> Arc<dyn Indenter> {
-    Arc::new(Asperities::new(vec![bump(-half_m), bump(half_m)]).unwrap())
+    let bumps = [-half_m, half_m].map(|x_m| asperity((x_m, 0.0), 0.01, 0.0));
+    Arc::new(Asperities::new(bumps.to_vec()).unwrap())
 }
 
 /// Shapes whose lowest points lie 1 mm off the axis, and the number of spheres of 10 mm that each is.
@@ -46,13 +37,8 @@ fn a_contact_off_the_axis_is_found_under_approach_and_under_load_control() {
 
 #[test]
 fn a_ring_off_the_axis_is_found_under_approach_control() {
-    let ring = [
-        (0.0, 1e-5),
-        (0.5e-3, 3e-6),
-        (1e-3, 0.0),
-        (1.5e-3, 3e-6),
-        (2e-3, 1e-5),
-    ];
+    let gaps = [1e-5, 3e-6, 0.0, 3e-6, 1e-5].into_iter().enumerate();
+    let ring: Vec<_> = gaps.map(|(k, gap_m)| (0.5e-3 * k as f64, gap_m)).collect();
     let ring: Arc<dyn Indenter> = Arc::new(Profile::new(&ring).unwrap());
     let mut plan = on_cells(pmma_plan(ring, 5.0), 64, 48);
     plan.base.drive = HarmonicDrive::approach(1e-6, 5e-7).unwrap();

@@ -145,13 +145,8 @@ fn check_counts(counts: &[(usize, String)], median: usize, most: usize) {
 #[test]
 fn three_spectra_over_eight_decades_take_a_handful_of_cycles_to_a_loss_within_1e_4() {
     // Half the mean, and all of it: the load touches zero.
-    let (ball, cone) = (sphere(0.01), cone(1.2));
-    let shapes = [
-        (ball.clone(), 5.0),
-        (ball, 10.0),
-        (cone.clone(), 5.0),
-        (cone, 10.0),
-    ];
+    let both = [sphere(0.01), cone(1.2)].map(|shape| [(shape.clone(), 5.0), (shape, 10.0)]);
+    let shapes = both.concat();
     let counts = counts(&shapes, STEPS, &|indenter, load_n, compliance| {
         Box::new(on_springs(indenter, load_n, compliance))
     });

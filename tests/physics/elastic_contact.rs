@@ -25,7 +25,7 @@ const CONE: ConeContact = ConeContact {
 };
 
 fn sphere() -> Sphere {
-    Sphere::new(HERTZ.radius_m).unwrap()
+    ball(HERTZ.radius_m)
 }
 
 fn cone() -> Cone {

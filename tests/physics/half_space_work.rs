@@ -5,20 +5,16 @@ use crate::prelude::*;
 use contact_dma::contact::half_space::convolution::Convolution;
 use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
-use contact_dma::indenter::{Asperity, MapEdge, Roughness, Shifted};
+use contact_dma::indenter::{MapEdge, Roughness, Shifted};
 use contact_dma::reference::transient::step_load_contact_radius_m;
 
 const RADIUS_M: f64 = 0.01;
 const LOAD_N: f64 = 10.0;
 
-fn ball() -> Sphere {
-    Sphere::new(RADIUS_M).unwrap()
-}
-
 /// The contact of the sphere under a load held for ever (m).
 fn relaxed_radius_m(load_n: f64) -> f64 {
     let relaxed = pmma().equilibrium_compliance().unwrap();
-    (0.75 * load_n * RADIUS_M * relaxed).cbrt()
+    hertz_radius_m(RADIUS_M, load_n, relaxed)
 }
 
 /// A load that swings about its mean, at a step of so many a cycle, by half of the mean.
@@ -41,7 +37,7 @@ fn a_cycle_on_pmma_takes_fewer_than_ten_convolutions_per_step() {
     let half_width_m = 1.1 * relaxed_radius_m(1.5 * LOAD_N);
     // Steps per cycle, mean convolutions per step seen.
     for (steps, seen) in [(100, 7.4), (200, 6.3)] {
-        let mut engine = half_space(&ball(), half_width_m, 128);
+        let mut engine = half_space(&ball(RADIUS_M), half_width_m, 128);
         let mut march = marched(&mut engine, LOAD_N);
         let before = march.work().convolutions;
         let weights = march.weights(TAU / 0.01 / steps as f64);
@@ -59,7 +55,7 @@ fn a_cycle_on_pmma_takes_fewer_than_ten_convolutions_per_step() {
 fn the_two_thousandth_step_costs_what_the_first_ones_do() {
     const PER_CYCLE: usize = 100;
     let half_width_m = 1.1 * relaxed_radius_m(1.5 * LOAD_N);
-    let mut engine = half_space(&ball(), half_width_m, 64);
+    let mut engine = half_space(&ball(RADIUS_M), half_width_m, 64);
     let mut march = marched(&mut engine, LOAD_N);
     let weights = march.weights(TAU / 0.01 / PER_CYCLE as f64);
     let cycle = |_| {
@@ -76,7 +72,7 @@ fn the_two_thousandth_step_costs_what_the_first_ones_do() {
 
 #[test]
 fn a_held_load_takes_a_few_convolutions_per_step() {
-    let mut engine = half_space(&ball(), 2.0 * relaxed_radius_m(LOAD_N), 128);
+    let mut engine = half_space(&ball(RADIUS_M), 2.0 * relaxed_radius_m(LOAD_N), 128);
     let mut march = March::new(&mut engine, pmma(), TimeRule::Linear);
     let first = march.jump(Prescribed::LoadN(LOAD_N)).unwrap();
     let weights = march.weights(1.0);
@@ -144,18 +140,8 @@ fn a_rough_surface_takes_few_iterations_and_has_the_answer_of_the_safe_way() {
 
 /// Two asperities of different height, off the middle.
 fn pair() -> Asperities {
-    let high = Asperity {
-        center_x_m: -2.6e-4,
-        center_y_m: 1e-4,
-        radius_m: 2e-3,
-        height_m: 4e-6,
-    };
-    let low = Asperity {
-        center_x_m: 3e-4,
-        center_y_m: -1.5e-4,
-        height_m: 0.0,
-        ..high
-    };
+    let high = asperity((-2.6e-4, 1e-4), 2e-3, 4e-6);
+    let low = asperity((3e-4, -1.5e-4), 2e-3, 0.0);
     Asperities::new(vec![low, high]).unwrap()
 }
 
@@ -279,7 +265,7 @@ fn the_answer_does_not_depend_on_the_guess() {
             Grid::square(40, 2.5e-5).unwrap(),
         ),
         (
-            Box::new(ball()),
+            Box::new(ball(RADIUS_M)),
             Grid::square(64, 3.0e-5).unwrap().quarter().unwrap(),
         ),
     ];
@@ -355,8 +341,8 @@ fn a_surface_that_the_past_has_lifted_is_met_beyond_the_window_too() {
             let right = (0..grid.cells()).filter(|c| c % cells > 80);
             (found, right.map(|c| pressure[c]).sum::<f64>())
         };
-        let (fast, right) = solve(&mut cells_on(&ball(), grid));
-        let (safe, expected) = solve(&mut cells_on(&ball(), grid).by_safeguard_alone());
+        let (fast, right) = solve(&mut cells_on(&ball(RADIUS_M), grid));
+        let (safe, expected) = solve(&mut cells_on(&ball(RADIUS_M), grid).by_safeguard_alone());
         assert_eq!((right > 0.0, expected > 0.0), (met, met));
         assert_same(&fast, &safe);
     }
@@ -375,7 +361,7 @@ fn the_size_of_the_domain_about_a_contact_changes_nothing() {
     // Cells of the same size: 64 about the contact, and more and more around them.
     let spacing_m = 2.3 * relaxed_radius_m(LOAD_N) / 64.0;
     let march = |cells: usize| {
-        let mut engine = cells_on(&ball(), Grid::square(cells, spacing_m).unwrap());
+        let mut engine = cells_on(&ball(RADIUS_M), Grid::square(cells, spacing_m).unwrap());
         let mut march = marched(&mut engine, LOAD_N);
         let weights = march.weights(8.0);
         let step = |_| march.step(&weights, Prescribed::LoadN(LOAD_N)).unwrap();
@@ -402,8 +388,8 @@ fn an_engine_that_has_solved_something_else_gives_the_same_answer_to_the_last_bi
         let bits = march.pressure().iter().map(|p| p.to_bits());
         bits.collect::<Vec<_>>()
     };
-    let expected = run(&mut half_space(&ball(), half_width_m, 64));
-    let mut used = half_space(&ball(), half_width_m, 64);
+    let expected = run(&mut half_space(&ball(RADIUS_M), half_width_m, 64));
+    let mut used = half_space(&ball(RADIUS_M), half_width_m, 64);
     for load_n in [0.0, 1e-3, LOAD_N, 0.0] {
         first_touch(&mut used, 1e-10, Prescribed::LoadN(load_n)).unwrap();
     }
@@ -416,7 +402,7 @@ fn an_engine_that_has_solved_something_else_gives_the_same_answer_to_the_last_bi
 #[test]
 fn radius_and_approach_follow_lee_and_radok_to_a_thousandth_at_every_step() {
     let compliance = pmma();
-    let mut engine = half_space(&ball(), 2.0 * relaxed_radius_m(LOAD_N), 256);
+    let mut engine = half_space(&ball(RADIUS_M), 2.0 * relaxed_radius_m(LOAD_N), 256);
     let mut march = March::new(&mut engine, compliance.clone(), TimeRule::Linear);
     let mut found = vec![(0.0, march.jump(Prescribed::LoadN(LOAD_N)).unwrap())];
     let weights = march.weights(1.0);
@@ -439,7 +425,7 @@ fn the_march_on_cells_is_of_second_order_in_the_step() {
     // Half a cycle of the load, on the same grid, against very small steps.
     let half_width_m = 1.1 * relaxed_radius_m(1.5 * LOAD_N);
     let end = |steps: usize| {
-        let mut engine = half_space(&ball(), half_width_m, 32);
+        let mut engine = half_space(&ball(RADIUS_M), half_width_m, 32);
         let mut march = marched(&mut engine, LOAD_N);
         let weights = march.weights(0.5 * TAU / 0.03 / steps as f64);
         for step in 1..=steps {

@@ -3,7 +3,6 @@
 
 use crate::identified::{self, EXACT, inside, off_by};
 use crate::prelude::*;
-use contact_dma::contact::half_space::layer::Base;
 use contact_dma::identify::data::{Measurements, Number};
 use contact_dma::identify::{CellError, Driven, Identified, IdentifyPlan, identify};
 use contact_dma::material::Compressibility;
@@ -147,7 +146,7 @@ fn attraction_is_taken_out() {
         adhesion: Some(adhesion),
         ..With::default()
     };
-    let sphere = Sphere::new(RADIUS_M).unwrap();
+    let sphere = ball(RADIUS_M);
     let pull_off_n = adhesion.pull_off_n(&sphere).unwrap();
     let drive = HarmonicDrive::load(0.2, 0.1).unwrap();
     let cycles = of_cycles(drive.attracted_by(pull_off_n).unwrap(), &with);
@@ -187,14 +186,8 @@ fn a_bulk_modulus_that_hardly_allows_the_solid_is_no_end_of_the_search() {
 
 /// Cycles of a bonded layer, measured on this number of cells.
 fn of_layer(cells: usize) -> IdentifyPlan {
-    let layer = LayerPlan {
-        thickness_m: 2e-4,
-        base: Base::Bonded,
-        base_modulus_ratio: None,
-        base_poisson_ratio: None,
-    };
     let with = With {
-        layer: Some(layer),
+        layer: Some(bonded(2e-4)),
         measured_on_cells: Some(cells),
         ..With::default()
     };

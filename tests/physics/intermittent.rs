@@ -56,7 +56,7 @@ fn a_punch_that_is_lifted_off_loses_what_the_harmonics_of_its_load_do() {
 }
 
 fn under_a_sphere(drive: HarmonicDrive) -> Sweep {
-    Sweep::new(zener_material(), Sphere::new(0.01).unwrap(), drive)
+    Sweep::new(zener_material(), ball(0.01), drive)
 }
 
 #[test]
@@ -114,7 +114,7 @@ fn the_part_in_contact_under_an_approach_lies_within_its_error() {
     assert!(fine.part < 2.0 / 3.0 && fine.part > 0.5, "{fine:?}");
     assert!((coarse.part - fine.part).abs() <= coarse.error + fine.error);
     let always = HarmonicDrive::approach(8e-6, 2e-6).unwrap();
-    let sweep = Sweep::new(pmma_material(), Sphere::new(0.01).unwrap(), always);
+    let sweep = Sweep::new(pmma_material(), ball(0.01), always);
     let result = solved(sweep.without_error_bars(), 1e-3);
     let duty = result.contact_duty;
     assert_eq!((duty.part, duty.error), (1.0, 0.0));

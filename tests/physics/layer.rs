@@ -75,7 +75,7 @@ fn load_n(engine: &mut HalfSpace, approach_m: f64) -> f64 {
 
 #[test]
 fn a_sphere_on_cells_is_as_stiff_as_the_dual_integral_equation_has_it_in_second_order() {
-    let sphere = Sphere::new(0.01).unwrap();
+    let sphere = ball(0.01);
     let mut orders = Vec::new();
     for kind in KINDS {
         for a_over_h in A_OVER_H {
@@ -170,7 +170,7 @@ fn the_numbers_of_the_guide_are_those_of_the_dual_integral_equation() {
 
 #[test]
 fn windows_quarters_and_the_safe_way_find_the_same_contact_where_the_surface_rises() {
-    let sphere = Sphere::new(0.01).unwrap();
+    let sphere = ball(0.01);
     for a_over_h in [0.5, 3.0] {
         let layer = layer(rigid(Base::Bonded, 0.5), a_over_h);
         let load = Prescribed::LoadN(under_ball(layer).load_n);
@@ -226,12 +226,11 @@ fn on_layer(indenter: Arc<dyn Indenter>, amplitude_n: f64, layer: LayerPlan) -> 
     result(&plan, OMEGA)
 }
 
-fn bonded(thickness_m: f64, yielding: Option<YieldingBase>) -> LayerPlan {
+fn on_base(thickness_m: f64, yielding: Option<YieldingBase>) -> LayerPlan {
     LayerPlan {
-        thickness_m,
-        base: Base::Bonded,
         base_modulus_ratio: yielding.map(|base| base.modulus_ratio),
         base_poisson_ratio: yielding.map(|base| base.poisson_ratio),
+        ..bonded(thickness_m)
     }
 }
 
@@ -242,7 +241,7 @@ fn a_punch_on_a_viscoelastic_layer_answers_by_correspondence() {
     let compliance = pmma();
     let relaxed = compliance.equilibrium_compliance().unwrap();
     for (thickness_m, yielding) in [(1e-4, None), (1e-3, None), (1e-4, SOFT), (1e-3, SOFT)] {
-        let result = on_layer(punch(5e-4), 5.0, bonded(thickness_m, yielding));
+        let result = on_layer(punch(5e-4), 5.0, on_base(thickness_m, yielding));
         // The mean of the approach says how compliant layer and cells are: the load's mean at the compliance at rest; which is that of
         // a half-space under a punch of another radius.
         let mean_m = 0.5 * (result.approach_m.minimum + result.approach_m.maximum);
@@ -257,7 +256,7 @@ fn a_punch_on_a_viscoelastic_layer_answers_by_correspondence() {
 fn equivalent_moduli_are_those_of_the_material_however_thin_the_layer() {
     let exact = pmma_material().longitudinal_complex_modulus(OMEGA);
     for (thickness_m, yielding) in [(5e-5, None), (3e-4, None), (3e-3, None), (1e-4, SOFT)] {
-        let result = on_layer(sphere(0.01), 0.1, bonded(thickness_m, yielding));
+        let result = on_layer(sphere(0.01), 0.1, on_base(thickness_m, yielding));
         // The contact moves by a part of a cell, or not at all: the tangent radius is that of cells, a percent or two.
         near!(result.storage_modulus_pa.unwrap(), exact.re, 0.03);
         near!(result.loss_modulus_pa.unwrap(), exact.im, 0.03);

@@ -43,7 +43,7 @@ fn a_loss_below_zero_is_told() {
 fn of_the_peaks_in_a_bracket_of_ten_decades_the_highest_is_found() {
     let drive = HarmonicDrive::load(10.0, 5.0).unwrap();
     let sweep = |omegas: Vec<f64>| {
-        let sphere = Sphere::new(0.01).unwrap();
+        let sphere = ball(0.01);
         let sweep = Sweep::new(pmma_material(), sphere, drive);
         let sweep = sweep.springs(100).unwrap().steps(64).unwrap();
         let sweep = sweep.angular_frequencies_rad_per_s(omegas).unwrap();

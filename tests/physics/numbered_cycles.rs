@@ -100,7 +100,7 @@ fn a_cycle_by_its_number_is_the_one_of_the_history_within_the_errors_of_both() {
     assert_eq!(cycles.len(), 4);
     for cycle in &cycles {
         let numbers = cycle.numbers.as_ref().unwrap();
-        let sphere = Sphere::new(0.01).unwrap();
+        let sphere = ball(0.01);
         let sweep = Sweep::new(pmma_material(), sphere, drive(hold_s));
         let record = case(sweep.at_cycle(cycle.number).unwrap(), omega);
         let result = record.result.as_ref().unwrap();
@@ -135,7 +135,7 @@ fn a_cycle_by_its_number_is_the_one_of_the_history_within_the_errors_of_both() {
 
 #[test]
 fn a_late_cycle_is_the_stabilised_one() {
-    let sphere = || Sphere::new(0.01).unwrap();
+    let sphere = || ball(0.01);
     let omega = 0.5;
     let stabilised = case(Sweep::new(zener_material(), sphere(), drive(0.0)), omega);
     let late = Sweep::new(zener_material(), sphere(), drive(30.0));

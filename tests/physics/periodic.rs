@@ -3,7 +3,6 @@
 use std::f64::consts::SQRT_2;
 
 use crate::prelude::*;
-use contact_dma::contact::half_space::SolverSettings;
 use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::contact::half_space::periodic::{Periodic, PeriodicOperator};
 use contact_dma::indenter::{MapEdge, MapQuantity};
@@ -36,12 +35,8 @@ fn pressed(
 ) -> (Solution, Vec<f64>) {
     let spacing = (sides_m.0 / cells_x as f64, sides_m.1 / cells_y as f64);
     let grid = Grid::new(cells_x, cells_y, spacing.0, spacing.1).unwrap();
-    let settings = SolverSettings {
-        tolerance: 1e-11,
-        ..SolverSettings::default()
-    };
     let operator = Arc::new(PeriodicOperator::new(grid));
-    let mut engine = Periodic::new(operator, gaps(heights), settings);
+    let mut engine = Periodic::new(operator, gaps(heights), to_tolerance(1e-11));
     let load_n = mean_pa * sides_m.0 * sides_m.1;
     first_touch(&mut engine, COMPLIANCE, Prescribed::LoadN(load_n)).unwrap()
 }
@@ -112,7 +107,7 @@ fn waves_along_both_axes_are_hertz_at_their_crests_and_full_under_the_pressure_o
     let radius_m = WAVELENGTH_M.powi(2) / (TAU * TAU * AMPLITUDE_M);
     let share = 2e-4;
     let load_n = share * full_pa * WAVELENGTH_M.powi(2) / 2.0;
-    let contact_m = (0.75 * load_n * radius_m * COMPLIANCE).cbrt();
+    let contact_m = hertz_radius_m(radius_m, load_n, COMPLIANCE);
     let (solution, pressure) = under(512, share);
     let peak = pressure.iter().copied().fold(0.0, f64::max);
     let hertz = 1.5 * load_n / (PI * contact_m * contact_m);

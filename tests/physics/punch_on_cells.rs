@@ -1,7 +1,6 @@
 //! A flat punch on cells, whose rim is a staircase: as stiff as the face on any grid, and its loss inside the bar on every one.
 
 use crate::prelude::*;
-use contact_dma::contact::half_space::layer::Base;
 use contact_dma::indenter::Shifted;
 use contact_dma::reference::layer::LayerContact;
 use contact_dma::sweep::plan::layer::LayerPlan;
@@ -72,12 +71,7 @@ fn the_loss_of_a_punch_on_a_layer_is_inside_its_bar_on_every_grid() {
     let springs = on_springs(punch(RADIUS_M));
     let material = pmma_material();
     for (a_over_h, few) in [(10.0, &[44, 64, 112, 160][..]), (1.0, &[32, 56, 124])] {
-        let layer = LayerPlan {
-            thickness_m: RADIUS_M / a_over_h,
-            base: Base::Bonded,
-            base_modulus_ratio: None,
-            base_poisson_ratio: None,
-        };
+        let layer = bonded(RADIUS_M / a_over_h);
         let of_material = layer.made_of(material.poisson_ratio().unwrap());
         let exact = LayerContact::new(of_material, RADIUS_M, 80);
         let stiffer = exact.punch_stiffness().unwrap();

@@ -1,9 +1,9 @@
 //! The half-space engine on a quarter of a surface that is even in x and in y, against the whole of it.
 
 use crate::prelude::*;
+use contact_dma::contact::half_space::HalfSpace;
 use contact_dma::contact::half_space::convolution::Convolution;
 use contact_dma::contact::half_space::grid::Grid;
-use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
 use contact_dma::contact::surface::{CellSurface, Response, Surface};
 
 /// Far below what is compared: the two stop at different iterates.
@@ -30,12 +30,8 @@ fn engine(grid: Grid, gap: fn(f64, f64) -> f64) -> HalfSpace {
         let (x_m, y_m) = grid.center(cell);
         gap(x_m, y_m)
     });
-    let settings = SolverSettings {
-        tolerance: TOLERANCE,
-        ..SolverSettings::default()
-    };
     let operator = Arc::new(Convolution::new(grid).unwrap());
-    HalfSpace::new(operator, gaps_m.collect(), true, settings)
+    HalfSpace::new(operator, gaps_m.collect(), true, to_tolerance(TOLERANCE))
 }
 
 struct Solved {

@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::prelude::*;
 use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::engine::domain;
-use contact_dma::indenter::{Asperity, MapEdge, MapQuantity, Roughness, Shifted};
+use contact_dma::indenter::{MapEdge, MapQuantity, Roughness, Shifted};
 use contact_dma::input::document::Document;
 use contact_dma::input::sweep_file;
 use contact_dma::reference::elastic::{ConeContact, Hertz};
@@ -182,12 +182,7 @@ fn two_equal_spheres_far_apart_carry_half_each_and_press_each_other_down() {
         compliance_per_pa: COMPLIANCE_PER_PA,
     };
     let apart_m = 8.0 * single.contact_radius_m();
-    let sphere = |center_x_m| Asperity {
-        center_x_m,
-        center_y_m: 0.0,
-        radius_m,
-        height_m: 0.0,
-    };
+    let sphere = |x_m| asperity((x_m, 0.0), radius_m, 0.0);
     let pair = Asperities::new(vec![sphere(-0.5 * apart_m), sphere(0.5 * apart_m)]).unwrap();
     let grid = first_grid(&pair, COMPLIANCE_PER_PA, 256);
     assert_eq!(grid.spacing_x_m(), grid.spacing_y_m());
@@ -206,17 +201,8 @@ fn two_equal_spheres_far_apart_carry_half_each_and_press_each_other_down() {
 
 #[test]
 fn a_lower_asperity_comes_into_contact_when_the_load_is_large_enough() {
-    let high = Asperity {
-        center_x_m: -4e-4,
-        center_y_m: 0.0,
-        radius_m: 0.01,
-        height_m: 5e-6,
-    };
-    let low = Asperity {
-        center_x_m: 4e-4,
-        height_m: 0.0,
-        ..high
-    };
+    let high = asperity((-4e-4, 0.0), 0.01, 5e-6);
+    let low = asperity((4e-4, 0.0), 0.01, 0.0);
     let pair = Asperities::new(vec![low, high]).unwrap();
     // Alone, the high one approaches by 5 um at W = 4 sqrt(R) delta^1.5 / (3 C) = 3.73 N.
     for (load_n, both) in [(3.0, false), (10.0, true)] {

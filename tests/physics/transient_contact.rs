@@ -13,10 +13,6 @@ use contact_dma::reference::transient::{
 const RADIUS_M: f64 = 0.01;
 const LOAD_N: f64 = 10.0;
 
-fn ball() -> Sphere {
-    Sphere::new(RADIUS_M).unwrap()
-}
-
 /// Contact radius of the first instant under `LOAD_N`.
 fn hertz_m(compliance: &Creep) -> f64 {
     step_load_contact_radius_m(RADIUS_M, LOAD_N, compliance, 0.0)
@@ -135,7 +131,7 @@ fn a_step_load_on_springs_follows_lee_and_radok_at_all_times_and_with_any_steps(
             equal(step.end_s, 20),
             equal(step.end_s, 200),
         ] {
-            let mut engine = springs(&ball(), half_width_m, SPRINGS);
+            let mut engine = springs(&ball(RADIUS_M), half_width_m, SPRINGS);
             let width_m = half_width_m / SPRINGS as f64;
             // The midpoint rule is off by at most (dx/a)^2 / 6 of the approach; the time rule by nothing, because it is
             // exact for the load, which is the sum over the springs.
@@ -152,7 +148,7 @@ fn the_approach_under_a_step_load_does_not_depend_on_the_steps_that_led_there() 
             step.run(engine, times).last().unwrap().solution.approach_m
         };
         let half_width_m = 1.15 * step.last_radius_m();
-        let mut row = springs(&ball(), half_width_m, 100);
+        let mut row = springs(&ball(RADIUS_M), half_width_m, 100);
         let once = last(&mut row, &[step.end_s]);
         for times in [
             equal(step.end_s, 100),
@@ -161,7 +157,7 @@ fn the_approach_under_a_step_load_does_not_depend_on_the_steps_that_led_there() 
             // A hundred steps' roundings.
             near!(last(&mut row, &times), once, 1e-12, "{}", step.name);
         }
-        let mut cells = half_space(&ball(), half_width_m, 32);
+        let mut cells = half_space(&ball(RADIUS_M), half_width_m, 32);
         let once = last(&mut cells, &[step.end_s]);
         let often = last(&mut cells, &log_spaced(step.first_s, step.end_s, 10));
         // The solver's tolerance of 1e-8, in each of eleven instants.
@@ -178,7 +174,7 @@ fn a_step_load_on_the_half_space_follows_lee_and_radok() {
             log_spaced(step.first_s, step.end_s, 12),
             equal(step.end_s, 12),
         ] {
-            let mut engine = half_space(&ball(), half_width_m, CELLS);
+            let mut engine = half_space(&ball(RADIUS_M), half_width_m, CELLS);
             let cell_m = 2.0 * half_width_m / CELLS as f64;
             // Discretisation only, of second order in the cell: 0.055 (cell/a)^2 was seen at most, and 0.25 of a cell.
             let bounds = (|share: f64| 0.1 * share * share, 0.5);
@@ -210,7 +206,7 @@ fn a_half_sine_on_a_maxwell_body_follows_ting_past_the_maximum_of_the_contact() 
     let counts = [200, 400, 800, 1600];
     let (mut rising, mut falling) = (vec![], vec![]);
     for count in counts {
-        let mut engine = springs(&ball(), half_width_m, count);
+        let mut engine = springs(&ball(RADIUS_M), half_width_m, count);
         let errors = half_sine_errors(&mut engine, count / 4);
         rising.push(errors.0);
         falling.push(errors.1);
@@ -231,9 +227,9 @@ fn both_engines_follow_the_half_sine_past_the_maximum_of_the_contact() {
     let half_width_m = 1.5 * hertz_m(&maxwell());
     let cell_m = 2.0 * half_width_m / CELLS as f64;
     let times = equal(3.0, 30);
-    let mut row = springs(&ball(), half_width_m, 1600);
+    let mut row = springs(&ball(RADIUS_M), half_width_m, 1600);
     let exact = follow(&mut row, &maxwell(), &times, half_sine);
-    let mut cells = half_space(&ball(), half_width_m, CELLS);
+    let mut cells = half_space(&ball(RADIUS_M), half_width_m, CELLS);
     let found = follow(&mut cells, &maxwell(), &times, half_sine);
     let largest_m = largest(exact.iter().map(|s| s.solution.approach_m));
     for (exact, found) in exact.iter().zip(&found).skip(1) {
@@ -294,7 +290,7 @@ impl Profile {
 fn step_load_profiles(compliance: &Creep, times_s: &[f64]) -> Vec<Profile> {
     let end_s = times_s[times_s.len() - 1];
     let largest_m = step_load_contact_radius_m(RADIUS_M, LOAD_N, compliance, end_s);
-    let mut engine = springs(&ball(), 1.02 * largest_m, 800);
+    let mut engine = springs(&ball(RADIUS_M), 1.02 * largest_m, 800);
     let samples = follow(&mut engine, compliance, &equal(end_s, 500), |_| LOAD_N);
     let wanted = times_s.iter().map(|&time_s| {
         let near = |sample: &&Sample| (sample.time_s - time_s).abs() < 1e-9 * end_s;
@@ -348,7 +344,7 @@ fn under_a_falling_ramp_the_contact_on_a_maxwell_body_still_grows_for_a_while() 
     const CELLS: usize = 64;
     let ramp = |s: f64| 1.0 - 0.5 * s;
     let hertz_m = hertz_m(&maxwell());
-    let mut row = springs(&ball(), 1.15 * hertz_m, 1600);
+    let mut row = springs(&ball(RADIUS_M), 1.15 * hertz_m, 1600);
     let radii = maxwell_radii(&mut row, 2.0, 100, ramp);
     for (s, radius) in &radii {
         // Twice what was seen, while the contact grows and while it shrinks.
@@ -358,7 +354,7 @@ fn under_a_falling_ramp_the_contact_on_a_maxwell_body_still_grows_for_a_while() 
     }
     near!(largest(radii.iter().map(|r| r.1)), 1.25_f64.cbrt(), 1e-5);
     assert_eq!(radii[100].1, 0.0);
-    let mut cells = half_space(&ball(), 1.2 * hertz_m, CELLS);
+    let mut cells = half_space(&ball(RADIUS_M), 1.2 * hertz_m, CELLS);
     let found = maxwell_radii(&mut cells, 2.0, 20, ramp);
     for ((s, radius), exact) in found.iter().zip(radii.iter().step_by(5)) {
         // Steps of a tenth leave far less than half a cell.
@@ -370,7 +366,7 @@ fn under_a_falling_ramp_the_contact_on_a_maxwell_body_still_grows_for_a_while() 
 #[test]
 fn under_a_cubic_load_the_contact_on_a_maxwell_body_shrinks_grows_and_shrinks_again() {
     let cubic = |s: f64| (1.0 + (2.0 - s).powi(3)) / 9.0;
-    let mut row = springs(&ball(), 1.1 * hertz_m(&maxwell()), 3200);
+    let mut row = springs(&ball(RADIUS_M), 1.1 * hertz_m(&maxwell()), 3200);
     let radii = maxwell_radii(&mut row, 3.0, 300, cubic);
     let (first, last) = radii.split_at(200);
     let lowest = first.iter().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap();

@@ -12,14 +12,10 @@ const CYCLES: usize = 5;
 const STEPS: usize = 40;
 const ANGULAR_FREQUENCY_RAD_PER_S: f64 = 0.01;
 
-fn ball() -> Sphere {
-    Sphere::new(RADIUS_M).unwrap()
-}
-
 /// The contact that the largest load makes if held for ever, which none under this load exceeds.
 fn largest_radius_m() -> f64 {
     let relaxed = pmma().equilibrium_compliance().unwrap();
-    (0.75 * 1.98 * MEAN_N * RADIUS_M * relaxed).cbrt()
+    hertz_radius_m(RADIUS_M, 1.98 * MEAN_N, relaxed)
 }
 
 /// What a history came to at every step.
@@ -88,12 +84,12 @@ impl History {
 
 /// 1600 springs, whose own error is 1e-7.
 static SPRINGS: LazyLock<History> = LazyLock::new(|| {
-    let mut engine = springs(&ball(), 1.02 * largest_radius_m(), 1600);
+    let mut engine = springs(&ball(RADIUS_M), 1.02 * largest_radius_m(), 1600);
     history(&mut engine, CYCLES)
 });
 
 fn cells(cells: usize, cycles: usize) -> History {
-    let mut engine = half_space(&ball(), 1.1 * largest_radius_m(), cells);
+    let mut engine = half_space(&ball(RADIUS_M), 1.1 * largest_radius_m(), cells);
     history(&mut engine, cycles)
 }
 
@@ -154,8 +150,8 @@ fn odd_and_even_grids_agree_to_their_discretisation_error() {
 #[test]
 fn a_history_of_approaches_calls_for_the_loads_and_pressures_it_came_from() {
     let half_width_m = 1.1 * largest_radius_m();
-    let row = springs(&ball(), half_width_m, 400);
-    let cells = cells_to(&ball(), grid(half_width_m, 32), 1e-11);
+    let row = springs(&ball(RADIUS_M), half_width_m, 400);
+    let cells = cells_to(&ball(RADIUS_M), grid(half_width_m, 32), 1e-11);
     // On springs it is the same arithmetic, bit for bit. On cells the tolerance of 1e-11 in either march, relative to displacements;
     // pressures answer to their differences between cells.
     let engines: [(Box<dyn Engine>, f64, f64); 2] =

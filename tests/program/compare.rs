@@ -4,21 +4,7 @@ use crate::prelude::*;
 
 /// Sweeps PMMA, with its slower relaxation time as given (s), around its largest peak.
 fn swept(place: &Place, name: &str, time_s: f64, more: &str) {
-    let text = format!(
-        r#"title = "peak"
-indenter = {{ shape = "sphere", radius = "10 mm" }}
-drive = {{ mean = "10 N", amplitude = "5 N" }}
-sweep.angular_frequency = ["5e-3 rad/s", "8e-3 rad/s", "1.2e-2 rad/s"]
-cycle = {{ steps = 50, error_bars = false }}
-solver.springs = 50
-[material]
-poisson_ratio = 0.38
-[material.relaxation]
-modulus = "longitudinal"
-equilibrium = "1973 MPa"
-branches = [{{ modulus = "254.776 MPa", time = "8.93 s" }}, {{ modulus = "263.6628 MPa", time = "{time_s} s" }}]
-"#
-    );
+    let text = include_str!("../inputs/peak.toml").replace("117.96", &time_s.to_string());
     place.put(&format!("{name}.toml"), text);
     place.done(&format!(
         "sweep {name}.toml --quiet --no-figures --out {name} {more}"

@@ -3,18 +3,11 @@
 use crate::html::between;
 use crate::prelude::*;
 
-const FREQUENCIES: &str = r#"hold = "500 s"
-[sweep]
-angular_frequency = { from = "1e-3 rad/s", to = "1 rad/s", points = 7 }
-[cycle]
-steps = 40
-[solver]
-springs = 60
-"#;
+const SWEEP: &str = include_str!("../inputs/seven.toml");
 
 /// Sweeps PMMA coarsely with this `[figures]` table, into `out`.
 fn sweep_into(place: &Place, figures: &str) {
-    place.put("sweep.toml", pmma_sweep(&format!("{FREQUENCIES}{figures}")));
+    place.put("sweep.toml", format!("{SWEEP}{figures}"));
     place.done("sweep sweep.toml --quiet --out out");
 }
 
@@ -220,13 +213,8 @@ fn normalised_axes_say_so_and_the_caption_gives_the_units() {
     let losses = "energy loss per cycle / W₀δ₀ against angular frequency ω / τ⁻¹";
     assert_eq!(axes(&place, "out/energy-loss.svg"), losses);
     let caption = place.text("out/energy-loss.caption.txt");
-    let parts = [
-        "elastic contact",
-        "mean load",
-        "W₀ = 10.00 N",
-        "τ = 133.9 s",
-    ];
-    says(&caption, &parts);
+    says(&caption, &["elastic contact", "mean load"]);
+    says(&caption, &["W₀ = 10.00 N", "τ = 133.9 s"]);
     // Data stay in SI units.
     let data = place.text("out/loops.csv");
     assert!(data.starts_with("angular_frequency_rad_per_s,approach_m,load_n\n"));
@@ -306,7 +294,7 @@ fn what_has_no_elastic_contact_to_normalise_by_is_refused() {
 
 #[test]
 fn the_smallest_figures_that_are_allowed_can_be_drawn() {
-    let place = Place::with("sweep.toml", &pmma_sweep(FREQUENCIES));
+    let place = Place::with("sweep.toml", SWEEP);
     // 320 and 240 px of 8 pt / 16.
     place.done(
         "sweep sweep.toml --quiet --out out --set 'sweep.drive.amplitude=[1.0, 3.0, 9.0]' --set 'figures.width=57 mm' \

@@ -364,13 +364,9 @@ fn an_export_is_written_to_what_is_there() {
 #[test]
 fn a_folder_of_another_command_is_told_where_a_sweep_is_needed() {
     let place = inputs();
-    for (k, holds) in [
-        (1, "a scenario"),
-        (5, "an identification"),
-        (6, "the figures of a material"),
-        (7, "a material fit"),
-        (8, "a comparison"),
-    ] {
+    let names =
+        "a scenario|an identification|the figures of a material|a material fit|a comparison";
+    for (k, holds) in [1, 5, 6, 7, 8].into_iter().zip(names.split('|')) {
         let out = format!("out-{k}");
         place.done(&into(COMMANDS[k], &out, ""));
         let holds = format!("{out} holds {holds}");

@@ -2,8 +2,7 @@
 
 use crate::prelude::*;
 
-const FILE: &str = "title = \"A measured solid\"\n[identify]\ndata = \"measured.csv\"\n[material]\npoisson_ratio = 0.45\n\
-                    [indenter]\nshape = \"sphere\"\nradius = \"2 mm\"\n[drive]\nmean = \"0.2 N\"\namplitude = \"0.1 N\"\n";
+const FILE: &str = include_str!("../inputs/measured-solid.toml");
 
 /// The measurement of the example.
 fn example() -> String {
@@ -99,21 +98,13 @@ fn a_bulk_modulus_stands_in_place_of_the_poisson_ratio_and_goes_into_the_block()
 /// Second cycles after a rest, as an experiment has them, which are not the stabilised ones.
 #[test]
 fn cycles_by_their_number_give_the_material_back_and_are_not_taken_for_stabilised_ones() {
-    let indenter = "[indenter]\nshape = \"sphere\"\nradius = \"2 mm\"\n";
-    let drive = "[drive]\nmean = \"1 N\"\namplitude = \"0.2 N\"\nhold = \"5 s\"\n";
     let cycle = "[cycle]\nmethod = \"march\"\nat_cycle = 2\n";
-    let sweep = format!(
-        "title = \"t\"\n[material]\npoisson_ratio = 0.45\n[material.relaxation]\nmodulus = \"longitudinal\"\n\
-         equilibrium = \"10 MPa\"\nbranches = [{{ modulus = \"40 MPa\", time = \"0.3 s\" }}, {{ modulus = \"20 MPa\", time = \"10 s\" }}]\n\
-         {indenter}{drive}{cycle}[sweep]\nangular_frequency = {{ from = \"0.03 rad/s\", to = \"30 rad/s\", points = 8 }}\n\
-         [solver]\nsprings = 60\n"
-    );
-    let place = Place::with("cycles.toml", &sweep);
+    let place = Place::lent("cycles.toml");
     place.done("sweep cycles.toml --quiet --no-figures --out cycles");
     let identify = |cycle: &str| {
-        place.put("solid.toml", format!(
-            "title = \"t\"\n[identify]\ndata = \"cycles\"\nbranches = 2\n[material]\npoisson_ratio = 0.45\n{indenter}{drive}{cycle}"
-        ));
+        let head = FILE.replace("measured.csv\"", "cycles\"\nbranches = 2");
+        let drive = head.replace("0.2 N", "1 N").replace("0.1 N", "0.2 N");
+        place.put("solid.toml", format!("{drive}hold = \"5 s\"\n{cycle}"));
         place.run("identify solid.toml --quiet --out solid")
     };
     let stabilised = identify("").ended(2);

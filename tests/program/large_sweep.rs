@@ -3,17 +3,7 @@
 use crate::prelude::*;
 
 /// 11 curves of 20 cases, as coarse as they may be.
-const LARGE: &str = r#"[sweep]
-angular_frequency = { from = "1e-3 rad/s", to = "1 rad/s", points = 20, spacing = "log" }
-drive.amplitude = { from = "1 N", to = "10 N", points = 11 }
-[cycle]
-steps = 32
-error_bars = false
-[solver]
-springs = 24
-[figures]
-formats = ["svg"]
-"#;
+const LARGE: &str = include_str!("../inputs/large.toml");
 
 /// The shape of an array of a .npz file, and its values.
 fn array(bytes: &[u8], name: &str) -> (Vec<usize>, Vec<f64>) {
@@ -74,7 +64,7 @@ fn page_and_pictures_stay_small_where_the_curves_have_many_cases() {
         .replace("1e-3 rad/s", "1e-4 rad/s")
         .replace("points = 20", "points = 800")
         .replace("points = 11", "points = 13");
-    let place = Place::with("many.toml", &pmma_sweep(&many));
+    let place = Place::with("many.toml", &many);
     place.done("sweep many.toml --quiet --out out");
     let bytes = |name: &str| place.bytes(&format!("out/{name}")).len();
     assert!(bytes("index.html") < 3_000_000, "{}", bytes("index.html"));
@@ -91,7 +81,7 @@ fn page_and_pictures_stay_small_where_the_curves_have_many_cases() {
 
 #[test]
 fn a_large_sweep_leaves_few_files_and_all_its_cycles_where_they_are_asked_for() {
-    let place = Place::with("large.toml", &pmma_sweep(LARGE));
+    let place = Place::lent("large.toml");
     let sweep = "sweep large.toml --quiet --out out";
     place.done(sweep);
     let table = place.table("out/sweep.csv").numbers("energy_loss_j");

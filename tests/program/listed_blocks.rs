@@ -4,23 +4,7 @@ use crate::prelude::*;
 use contact_dma::engine::EngineKind;
 
 /// What all sweeps of this file have in common; `[sweep]` is open at its end.
-const COMMON: &str = r#"
-title = "several"
-
-[drive]
-mean = "1 N"
-amplitude = "0.5 N"
-
-[cycle]
-steps = 32
-
-[solver]
-springs = 48
-cells = 24
-
-[sweep]
-angular_frequency = ["0.3 rad/s", "3 rad/s"]
-"#;
+const COMMON: &str = include_str!("../inputs/several.toml");
 
 /// Materials by name: a header for each key, `HEAD` being where the block stands.
 const MATERIALS: [(&str, &str); 3] = [

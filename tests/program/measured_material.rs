@@ -77,12 +77,11 @@ fn record(cycle: &[Vec<f64>; 2], hz: f64, random: &mut Random) -> String {
     text
 }
 
-const FILE: &str = "title = \"A measured solid\"\n[identify]\ndata = \"measured\"\n[material]\npoisson_ratio = 0.45\n[indenter]\n\
-                    shape = \"sphere\"\nradius = \"2 mm\"\n[drive]\n";
-
 /// What the program makes of one set of records, under this drive.
 fn identified(cycles: &[[Vec<f64>; 2]], drive: &str, random: &mut Random) -> serde_json::Value {
-    let place = Place::with("solid.toml", &format!("{FILE}{drive}"));
+    let file = include_str!("../inputs/measured-solid.toml").replace("measured.csv", "measured");
+    let (head, _) = file.split_once("mean = ").unwrap();
+    let place = Place::with("solid.toml", &format!("{head}{drive}"));
     let mut analyse = "analyse --out measured --quiet --no-figures".to_owned();
     for (k, (cycle, hz)) in cycles.iter().zip(frequencies_hz()).enumerate() {
         place.put(&format!("loop-{k}.csv"), record(cycle, hz, random));
@@ -163,26 +162,14 @@ fn check(
 fn records_with_noise_drift_and_an_unknown_zero_give_the_solid_within_its_bands() {
     let drive = HarmonicDrive::load(MEAN_N, AMPLITUDE_N).unwrap();
     let told = "mean = \"0.2 N\"\namplitude = \"0.1 N\"\n";
-    check(
-        4,
-        drive,
-        told,
-        7,
-        "phase_lag_rad approach_amplitude_m",
-        0.5..1.6,
-    );
+    let data = "phase_lag_rad approach_amplitude_m";
+    check(4, drive, told, 7, data, 0.5..1.6);
 }
 
 #[test]
 fn records_under_a_prescribed_approach_give_the_solid_though_their_mean_is_counted_from_nowhere() {
     let drive = HarmonicDrive::approach(3e-5, 1e-5).unwrap();
     let told = "control = \"approach\"\nmean = \"30 um\"\namplitude = \"10 um\"\n";
-    check(
-        2,
-        drive,
-        told,
-        11,
-        "phase_lag_rad load_amplitude_n",
-        0.4..1.6,
-    );
+    let data = "phase_lag_rad load_amplitude_n";
+    check(2, drive, told, 11, data, 0.4..1.6);
 }

@@ -6,29 +6,9 @@ use crate::prelude::*;
 /// A cheap sweep of one frequency.
 const ONE: &str = "[sweep]\nangular_frequency = \"0.01 rad/s\"\n[cycle]\nsteps = 16\nerror_bars = false\n[solver]\nsprings = 16\n";
 
-/// Two materials by these names under one indenter.
-fn two_materials(first: &str, second: &str) -> String {
-    format!(
-        r#"title = "two"
-indenter = {{ shape = "sphere", radius = "10 mm" }}
-drive = {{ mean = "10 N", amplitude = "5 N" }}
-cycle = {{ steps = 16, error_bars = false }}
-solver.springs = 16
-[sweep]
-angular_frequency = ["0.01 rad/s", "0.1 rad/s"]
-[[sweep.material]]
-library = "pmma"
-name = "{first}"
-[[sweep.material]]
-library = "pmma"
-name = "{second}"
-"#
-    )
-}
-
 #[test]
 fn letters_that_the_typeface_lacks_are_said() {
-    let place = Place::with("letters.toml", &two_materials("a", "材料"));
+    let place = Place::lent("letters.toml");
     let run = place.done(&format!("sweep letters.toml --out out {SVG}"));
     run.says(&["does not have 料 材"]);
 }
@@ -50,14 +30,7 @@ fn a_figure_that_cannot_be_drawn_is_a_warning_beside_a_finished_history() {
         .map(|x| format!("{:e}", 1e-8 * f64::from(x % 64)))
         .collect();
     let place = Place::with("map.csv", &vec![row.join(","); 16].join("\n"));
-    let text = r#"title = "strip"
-material.library = "pmma"
-indenter = { shape = "height-map", file = "map.csv", spacing = "1 um", edge = "periodic" }
-drive = { control = "pressure", segments = [{ kind = "ramp", to = "1 MPa", duration = "1 s" }] }
-time.step = "0.5 s"
-output.fields_at = ["1 s"]
-"#;
-    place.put("strip.toml", text);
+    place.lend("strip.toml");
     let run = place.done(&format!("simulate strip.toml --out out {SVG}"));
     run.says(&["no figure pressure-map"]);
     for name in ["history.csv", "index.html", "history.svg"] {

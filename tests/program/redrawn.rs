@@ -5,6 +5,7 @@ use contact_dma::report::profile_lines::Profile;
 use contact_dma::report::scenario_folder;
 
 use crate::folders;
+use crate::input_keys::assert_current;
 
 /// Histories on springs and on cells with everything that one can have: an unloaded moment, a jump, cycles, errors, profiles and fields.
 const HISTORIES: &str = "springs.toml cells.toml";
@@ -117,97 +118,45 @@ fn refused(place: &Place, more: &str, parts: &[&str]) {
     says(&place.refused(&format!("report out {more}")), parts);
 }
 
+/// Damages, one a line: a file, words of it and what stands in their place, or a file that is taken away; in damaged-history.stderr what
+/// is said of each.
+const DAMAGES: &str = "tests/refused/damaged-history";
+
 #[test]
 fn a_damaged_table_is_named_with_its_line_and_nothing_is_written() {
     let place = Place::lent(HISTORIES);
     place.done("simulate cells.toml --out out");
-    let history = place.text("out/history.csv");
-    let twice = format!("{history}{}", history.split_once('\n').unwrap().1);
-    let fifth = history.lines().nth(4).unwrap();
-    let of_nan = fifth.replacen("1e1,", "NaN,", 1);
-    // The file, some words of it, what stands in their place, and what is said.
-    for (name, words, others, parts) in [
-        (
-            "history.csv",
-            "load_n",
-            "load",
-            "history.csv:1|no column `load_n`",
-        ),
-        ("history.csv", fifth, "1,2", "history.csv:5|2 cells"),
-        (
-            "history.csv",
-            fifth,
-            &of_nan,
-            "history.csv:5|`NaN` in the column `load_n` is no finite number",
-        ),
-        ("history.csv", &history, &twice, "history.csv:|more than"),
-        (
-            "cycles.csv",
-            "\n3,1,",
-            "\n3,99999999999999999999,",
-            "cycles.csv:2|no whole number",
-        ),
-        (
-            "cycles.csv",
-            "\n3,1,",
-            "\n3,7,",
-            "cycles.csv|not those of history.csv",
-        ),
-        (
-            "profiles/1.csv",
-            "x,",
-            "x,abc",
-            "profiles/1.csv:2|no finite number",
-        ),
-        (
-            "profiles/index.csv",
-            ",16,16,",
-            ",1e300,16,",
-            "profiles/index.csv|cells",
-        ),
-        (
-            "fields/index.csv",
-            ",16,16,",
-            ",15,16,",
-            "fields/0-pressure_pa.npy|no matrix of 16 rows and 15 columns",
-        ),
-        (
-            "fields/1-displacement_m.npy",
-            "NUMPY",
-            "short",
-            "fields/1-displacement_m.npy|no matrix",
-        ),
-        (
-            "summary.json",
-            "\"iterations\": ",
-            "\"iterations\": -",
-            "summary.json|line",
-        ),
-        (
-            "summary.json",
-            "\"scenario_hash\": \"",
-            "\"scenario_hash\": \"0",
-            "summary.json|another scenario",
-        ),
-    ] {
-        let file = format!("out/{name}");
+    let mut told = String::new();
+    for line in fs::read_to_string(format!("{DAMAGES}.txt"))
+        .unwrap()
+        .lines()
+    {
+        let mut parts = line.split(" | ").map(|part| part.replace('⏎', "\n"));
+        let file = format!("out/{}", parts.next().unwrap());
         let whole = place.bytes(&file);
-        let text = String::from_utf8_lossy(&whole).into_owned();
-        let damaged = text.replacen(words, others, 1);
-        assert_ne!(damaged, text, "{name}: {parts:?}");
-        place.put(&file, damaged);
+        match parts.next().zip(parts.next()) {
+            Some((words, others)) => {
+                let text = String::from_utf8_lossy(&whole);
+                assert!(text.contains(&words), "{line}");
+                place.put(&file, text.replacen(&words, &others, 1));
+            }
+            None => fs::remove_file(place.path(&file)).unwrap(),
+        }
         let before = files(&place, "out");
-        refused(&place, "", &parts.split('|').collect::<Vec<_>>());
-        assert!(files(&place, "out") == before, "{name}");
+        // The row itself, with its digits, stands below some messages.
+        let said = place.ends("report out", 2);
+        let said: Vec<&str> = said.lines().filter(|line| !line.contains('|')).collect();
+        told += &format!("{line}\n{}\n\n", said.join("\n"));
+        assert!(files(&place, "out") == before, "{line}");
         place.put(&file, whole);
     }
-    for name in ["history.csv", "summary.json", "fields/0-pressure_pa.npy"] {
-        let file = format!("out/{name}");
-        let whole = place.bytes(&file);
-        fs::remove_file(place.path(&file)).unwrap();
-        refused(&place, "", &[name, "contact-dma simulate"]);
-        place.put(&file, whole);
-    }
+    assert_current(format!("{DAMAGES}.stderr"), &told);
+    // A row for every instant, and then as many again.
+    let history = place.text("out/history.csv");
+    let rows = history.split_once('\n').unwrap().1;
+    place.put("out/history.csv", format!("{history}{rows}"));
+    refused(&place, "", &["history.csv:", "more than"]);
+    place.put("out/history.csv", history);
     place.done("report out");
     // What would be another history is none of this folder.
     refused(&place, "--set 'drive.control=approach'", &["error: "]);

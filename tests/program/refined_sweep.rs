@@ -3,19 +3,11 @@
 use crate::prelude::*;
 
 /// Six points over five decades.
-const FEW: &str = r#"[sweep]
-angular_frequency = { from = "1e-4 rad/s", to = "10 rad/s", points = 6 }
-[cycle]
-steps = 64
-[solver]
-springs = 100
-"#;
-
 const RUN: &str = "sweep few.toml --quiet --no-figures --out out";
 
 /// The sweep's table after a run with a key changed.
 fn table(set: &str) -> Table {
-    let place = Place::with("few.toml", &pmma_sweep(FEW));
+    let place = Place::lent("few.toml");
     place.done(&format!("{RUN} {set}"));
     place.table("out/sweep.csv")
 }
@@ -39,7 +31,7 @@ fn frequencies_are_added_about_the_peaks_and_stand_in_their_order() {
 
 #[test]
 fn a_second_run_finds_the_frequencies_that_the_first_has_added() {
-    let place = Place::with("few.toml", &pmma_sweep(FEW));
+    let place = Place::lent("few.toml");
     let run = || {
         place.done(&format!("{RUN} --set sweep.refine=true"));
         let run = place.json("out/run.json");

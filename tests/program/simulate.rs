@@ -5,17 +5,7 @@ use contact_dma::reference::transient::maxwell_half_sine_cubed_radius;
 use contact_dma::simulation::{HistoryRow, SimulationOutcome};
 
 /// Zener body of equal springs, C_0 = 2.5e-7 1/Pa and tau = 10 s, under a sphere of 10 mm.
-const ZENER: &str = r#"title = "test"
-[material]
-poisson_ratio = 0.5
-[material.zener]
-spring = "1 MPa"
-kelvin_spring = "1 MPa"
-time = "10 s"
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-"#;
+const ZENER: &str = include_str!("../inputs/zener.toml");
 const COMPLIANCE: f64 = 2.5e-7;
 const TAU_S: f64 = 10.0;
 const RADIUS_M: f64 = 0.01;
@@ -56,7 +46,7 @@ fn integrated_creep(t: f64) -> f64 {
 
 /// a from (4/3) a^3 / R = integral of C dW.
 fn contact_radius_m(integral: f64) -> f64 {
-    (0.75 * RADIUS_M * integral).cbrt()
+    hertz_radius_m(RADIUS_M, 1.0, integral)
 }
 
 #[test]
