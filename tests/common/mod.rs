@@ -7,6 +7,7 @@ pub mod engines;
 pub mod random;
 pub mod solids;
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -85,6 +86,25 @@ pub fn maxwell() -> Creep {
     let body = classical::maxwell(1e9, 1.0).unwrap();
     let material = Material::from_relaxation(body, ModulusKind::Shear, 0.5).unwrap();
     material.contact_compliance().unwrap()
+}
+
+/// A table of dynamic data: the moduli of a solid at temperatures (°C) and frequencies (Hz), shifted by log10 a_T, each as `measured`.
+pub fn dynamic_csv(
+    solid: &Relaxation,
+    (temperatures_c, frequencies_hz): (&[f64], &[f64]),
+    log10_a_t: impl Fn(f64) -> f64,
+    mut measured: impl FnMut(f64) -> f64,
+) -> String {
+    let mut table = "temperature_c,frequency_hz,storage_modulus_pa,loss_modulus_pa\n".to_owned();
+    for &celsius in temperatures_c {
+        for &hertz in frequencies_hz {
+            let reduced = TAU * hertz * 10_f64.powf(log10_a_t(celsius));
+            let modulus = solid.complex_modulus(reduced);
+            let [storage, loss] = [modulus.re, modulus.im].map(&mut measured);
+            table += &format!("{celsius},{hertz:e},{storage:e},{loss:e}\n");
+        }
+    }
+    table
 }
 
 // Indenters.

@@ -2,6 +2,8 @@
 
 #![allow(dead_code)] // Each test file uses its own part.
 
+mod table;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,6 +11,8 @@ use std::path::{Path, PathBuf};
 use assert_cmd::Command;
 use serde_json::Value;
 use tempfile::TempDir;
+
+pub use table::Table;
 
 /// The program, without what the surroundings might ask of it.
 pub fn program() -> Command {
@@ -182,10 +186,8 @@ impl Place {
     pub fn are_same(&self, folders: &[&str], name: &str) {
         let first = self.bytes(&format!("{}/{name}", folders[0]));
         for folder in &folders[1..] {
-            assert!(
-                self.bytes(&format!("{folder}/{name}")) == first,
-                "{folder}/{name}"
-            );
+            let is_same = self.bytes(&format!("{folder}/{name}")) == first;
+            assert!(is_same, "{folder}/{name}");
         }
     }
 
@@ -251,14 +253,18 @@ impl Run {
     }
 }
 
-/// The doubles in a file of NumPy.
-pub fn npy(bytes: &[u8]) -> Vec<f64> {
+/// The shape of an array in a file of NumPy, and its doubles.
+pub fn npy(bytes: &[u8]) -> (Vec<usize>, Vec<f64>) {
     assert!(bytes.starts_with(b"\x93NUMPY\x01\x00"));
-    let header = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
-    let doubles = bytes[header..].chunks_exact(8);
-    doubles
-        .map(|double| f64::from_le_bytes(double.try_into().unwrap()))
-        .collect()
+    let length = usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+    let (header, doubles) = bytes[10..].split_at(length);
+    let header = std::str::from_utf8(header).unwrap();
+    let (_, shape) = header.split_once("'shape': (").unwrap();
+    let (shape, _) = shape.split_once(')').unwrap();
+    let sides = shape.split(',').filter_map(|side| side.trim().parse().ok());
+    let doubles = doubles.chunks_exact(8);
+    let doubles = doubles.map(|double| f64::from_le_bytes(double.try_into().unwrap()));
+    (sides.collect(), doubles.collect())
 }
 
 /// All of this stands in a text.
@@ -272,59 +278,4 @@ pub fn says(text: &str, parts: &[&str]) {
 /// A text on one line.
 pub fn words(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-/// A table as files of results have it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Table {
-    pub columns: Vec<String>,
-    pub rows: Vec<Vec<String>>,
-}
-
-impl Table {
-    pub fn of(text: &str) -> Self {
-        let mut reader = csv::Reader::from_reader(text.as_bytes());
-        let cells = |row: &csv::StringRecord| row.iter().map(str::to_owned).collect();
-        Self {
-            columns: cells(reader.headers().unwrap()),
-            rows: reader.records().map(|row| cells(&row.unwrap())).collect(),
-        }
-    }
-
-    pub fn len(&self) -> usize {
-        self.rows.len()
-    }
-
-    /// The texts of a column.
-    #[track_caller]
-    pub fn cells(&self, column: &str) -> Vec<&str> {
-        let place = self.columns.iter().position(|name| name == column);
-        let place = place.unwrap_or_else(|| panic!("no {column} in {:?}", self.columns));
-        self.rows.iter().map(|row| row[place].as_str()).collect()
-    }
-
-    /// The numbers of a column that has one in each row.
-    #[track_caller]
-    pub fn numbers(&self, column: &str) -> Vec<f64> {
-        let cells = self.cells(column).into_iter();
-        cells.map(|cell| cell.parse().unwrap()).collect()
-    }
-
-    /// The numbers of a column, in an empty cell none.
-    #[track_caller]
-    pub fn found(&self, column: &str) -> Vec<Option<f64>> {
-        let cells = self.cells(column).into_iter();
-        cells.map(|cell| cell.parse().ok()).collect()
-    }
-
-    /// The numbers of a row in these columns.
-    #[track_caller]
-    pub fn row<const N: usize>(&self, row: usize, columns: [&str; N]) -> [f64; N] {
-        columns.map(|column| self.number(row, column))
-    }
-
-    #[track_caller]
-    pub fn number(&self, row: usize, column: &str) -> f64 {
-        self.cells(column)[row].parse().unwrap()
-    }
 }

@@ -12,12 +12,7 @@ use crate::segments;
 use contact_dma::sweep::plan::resolved::hash;
 
 /// Two hundred cases in place of three.
-const MANY: [&str; 4] = [
-    "--threads",
-    "1",
-    "--set",
-    "sweep.angular_frequency={from=\"1e-3 rad/s\",to=\"1 rad/s\",points=200}",
-];
+const MANY: &str = "--threads 1 --set sweep.angular_frequency={from=1e-3,to=1,points=200}";
 
 /// Starts all of them and waits for their ends.
 fn together(commands: &[Vec<&str>], out: &Path) -> Vec<Output> {
@@ -134,7 +129,8 @@ fn stop(child: &Child) {
 
 /// A sweep of [`MANY`] that has some of its records.
 fn begun(file: &str, out: &Path) -> Child {
-    let child = start(&[&["sweep", file], &MANY[..]].concat(), out);
+    let words = ["sweep", file].into_iter().chain(MANY.split(' '));
+    let child = start(&words.collect::<Vec<_>>(), out);
     wait_for("no case was finished", || segments::count(out) > 2);
     child
 }
@@ -148,11 +144,10 @@ fn what_runs_is_neither_replaced_nor_joined_by_another_and_loses_nothing() {
     stop(&running);
     let before = hashes(&out);
     let sweep = "sweep small.toml --quiet --out";
-    let many = MANY.map(|argument| format!("'{argument}'")).join(" ");
     let full = out.display();
     for line in [
         format!("{sweep} '{full}' --force"),
-        format!("{sweep} '{full}' {many} --force"),
+        format!("{sweep} '{full}' {MANY} --force"),
         format!("{sweep} '{full}'"),
         format!("merge '{full}' --force --out '{full}'"),
     ] {
@@ -208,8 +203,7 @@ fn a_run_that_is_replaced_where_locks_reach_nobody_stops_and_leaves_the_folder_t
 #[test]
 fn a_killed_process_leaves_its_folder_to_the_next_one_whatever_that_is() {
     let (place, file) = small();
-    let many = MANY.map(|argument| format!("'{argument}'")).join(" ");
-    for (out, more, records) in [("out", &*many, 200), ("few", "--force", 2)] {
+    for (out, more, records) in [("out", MANY, 200), ("few", "--force", 2)] {
         let folder = place.path(out);
         let killed = begun(&file, &folder);
         stopped(killed, "-KILL");

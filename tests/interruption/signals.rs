@@ -42,12 +42,8 @@ fn a_command_that_has_nothing_to_keep_ends_at_once() {
         true => "set -- env --default-signal=HUP \"$@\";",
         false => "",
     };
-    let commands = [
-        &["plan", "-"][..],
-        &["material", "show", "/dev/stdin"],
-        &["sweep", "-"],
-    ];
-    for arguments in commands {
+    for line in ["plan -", "material show /dev/stdin", "sweep -"] {
+        let arguments: &Vec<&str> = &line.split(' ').collect();
         for how in ["-TERM", "-INT", "-HUP"] {
             // It waits for an input that does not come.
             let child = after(listening, arguments, &place.path(""));

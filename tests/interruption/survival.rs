@@ -451,11 +451,10 @@ fn tables_and_figures_are_drawn_again_from_records_alone() {
     fs::remove_file(out.join("energy-loss.svg")).unwrap();
     let report = place.done("report out");
     assert!(!report.stdout.contains("nterrupted"), "{report:?}");
-    report.says(&[
-        "Peak not located: losses near ",
-        " have no record in ",
-        "`contact-dma sweep FILE --out ",
-    ]);
+    let parts = ["Peak not located: losses near ", " have no record in "];
+    report
+        .says(&parts)
+        .says(&["`contact-dma sweep FILE --out "]);
     assert!(out.join("energy-loss.svg").exists());
     says(&place.text("out/summary.json"), &["\"interrupted\": false"]);
     // A record that is gone leaves a gap; nothing is solved for it.

@@ -2,9 +2,7 @@
 
 use crate::prelude::*;
 use contact_dma::drive::HistoryError;
-use contact_dma::reference::elastic::Hertz;
 use contact_dma::simulation::SimulationOutcome;
-use contact_dma::sweep::plan::adhesion::AdhesionPlan;
 
 const RADIUS_M: f64 = 1e-6;
 const WORK: f64 = 0.05;

@@ -2,8 +2,6 @@
 //! against correspondence, moduli read back from loops.
 
 use crate::prelude::*;
-use contact_dma::material::Compressibility;
-use num_complex::Complex;
 
 /// Shear series of a polymer through its transition (Pa, s), and bulk moduli (Pa).
 const EQUILIBRIUM_PA: f64 = 2e6;

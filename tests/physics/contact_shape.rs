@@ -1,7 +1,6 @@
 //! Contacts that are not one disc about the origin: found wherever they lie, and read as moduli by their own stiffness.
 
 use crate::prelude::*;
-use contact_dma::indenter::Shifted;
 use contact_dma::simulation::{SimulationEnd, SimulationOutcome};
 
 fn bumps(half_m: f64) -> Arc<dyn Indenter> {

@@ -2,8 +2,6 @@
 //! frequency. Counts of cycles are under test: a search that silently got worse fails.
 
 use crate::prelude::*;
-use contact_dma::contact::axisymmetric::Axisymmetric;
-use contact_dma::contact::half_space::HalfSpace;
 use contact_dma::cycle;
 use contact_dma::steady::{self, Cycle, Steady, SteadySettings};
 
@@ -106,11 +104,8 @@ fn counts(shapes: &[Contact], steps: usize, engine: &MakeEngine) -> Vec<(usize, 
             contacts.extend((-4..=4).map(|decade| (material, contact, decade)));
         }
     }
-    let count = |&((name, compliance, time_s), (shape, amplitude_n), decade): &(
-        &(&str, Creep, f64),
-        &Contact,
-        i32,
-    )| {
+    type Trial<'a> = (&'a (&'a str, Creep, f64), &'a Contact, i32);
+    let count = |&((name, compliance, time_s), (shape, amplitude_n), decade): &Trial<'_>| {
         let case = Case {
             compliance,
             amplitude_n: *amplitude_n,

@@ -4,9 +4,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::prelude::*;
-use contact_dma::contact::axisymmetric::Axisymmetric;
-use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
-use contact_dma::reference::elastic::{ConeContact, Hertz, flat_punch_approach_m};
+use contact_dma::reference::elastic::flat_punch_approach_m;
 
 const LOAD_N: f64 = 10.0;
 const COMPLIANCE_PER_PA: f64 = 4e-10;

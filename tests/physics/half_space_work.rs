@@ -2,10 +2,6 @@
 //! lose nothing.
 
 use crate::prelude::*;
-use contact_dma::contact::half_space::convolution::Convolution;
-use contact_dma::contact::half_space::grid::Grid;
-use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
-use contact_dma::indenter::{MapEdge, Roughness, Shifted};
 use contact_dma::reference::transient::step_load_contact_radius_m;
 
 const RADIUS_M: f64 = 0.01;
@@ -239,13 +235,10 @@ fn guesses(exact: &[f64], grid: &Grid) -> Vec<(&'static str, Vec<f64>)> {
         ("1e-15 in a corner", with(&one(cells - 1, 1e-15))),
         ("1e-4 in a border cell", with(&one(nx * 3, 1e-4))),
         (
-            "1e-12 in every border cell",
+            "1e-12 in all of the border",
             with(&|cell| 1e-12 * at_border(cell)),
         ),
-        (
-            "1e-10 of noise everywhere",
-            with(&|cell| 1e-10 * noise[cell]),
-        ),
+        ("1e-10 of noise", with(&|cell| 1e-10 * noise[cell])),
         ("1e-300 everywhere", with(&|_| 1e-300)),
         ("noise alone", noise.clone()),
         ("a few spikes", alone(&|cell| spike(sparse[cell]))),

@@ -81,10 +81,7 @@ fn found_within_their_bands(under: &Under, solids: u64) {
     for number in 0..solids {
         let mut random = Random(seed.wrapping_mul(1_000_003).wrapping_add(number));
         let truth = random_series(&mut random);
-        let noise = Noise {
-            relative: 0.01,
-            with_errors: number % 2 == 0,
-        };
+        let noise = Noise::of(0.01, number % 2 == 0);
         let measured = (&LOSSES_AND_PHASES[..], noise);
         let plan = plan(&truth, under.clone(), measured, None, &mut random);
         let start = std::time::Instant::now();
@@ -156,10 +153,7 @@ fn other_columns_other_shapes_and_a_prescribed_approach_serve_as_well() {
     for (number, (under, numbers)) in cases.into_iter().enumerate() {
         let mut random = Random(500 + number as u64);
         let truth = random_series(&mut random);
-        let noise = Noise {
-            relative: 0.005,
-            with_errors: number % 2 == 1,
-        };
+        let noise = Noise::of(0.005, number % 2 == 1);
         let plan = plan(&truth, under, (numbers, noise), None, &mut random);
         let found = found(&plan).unwrap();
         let (inside, of) = inside(&truth, &found, &frequencies());
@@ -196,10 +190,7 @@ fn cells_serve_as_springs_do() {
 fn what_the_data_leave_open_is_named() {
     // A branch a hundred times slower than the slowest cycle shows as a slope of the loss, g / (omega tau), and nothing else.
     let truth = series(1e8, &[(4e8, 2e4), (2e8, 1.0)]);
-    let noise = Noise {
-        relative: 0.01,
-        with_errors: true,
-    };
+    let noise = Noise::of(0.01, true);
     let measured = (&LOSSES_AND_PHASES[..], noise);
     let mut plan = plan(&truth, under_load(), measured, None, &mut Random(3));
     plan.branches = Some(2);

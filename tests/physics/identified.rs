@@ -4,7 +4,6 @@
 use crate::prelude::*;
 use contact_dma::identify::data::{Datum, Measurements, Number, Reading};
 use contact_dma::identify::{Identified, IdentifyError, IdentifyPlan, identify};
-use contact_dma::simulation::HistoryRow;
 use contact_dma::simulation::between::values_at;
 
 /// How well something is measured: relative noise, and whether the data say so.
@@ -20,6 +19,13 @@ pub const EXACT: Noise = Noise {
 };
 
 impl Noise {
+    pub fn of(relative: f64, with_errors: bool) -> Self {
+        Self {
+            relative,
+            with_errors,
+        }
+    }
+
     fn on(self, exact: f64, random: &mut Random) -> (f64, Option<f64>) {
         let value = exact * (1.0 + self.relative * random.normal());
         (value, self.with_errors.then_some(self.relative * exact))

@@ -5,9 +5,6 @@ use crate::identified::{self, EXACT, inside, off_by};
 use crate::prelude::*;
 use contact_dma::identify::data::{Measurements, Number};
 use contact_dma::identify::{CellError, Driven, Identified, IdentifyPlan, identify};
-use contact_dma::material::Compressibility;
-use contact_dma::sweep::plan::adhesion::AdhesionPlan;
-use contact_dma::sweep::plan::layer::LayerPlan;
 
 const POISSON: f64 = 0.35;
 const RADIUS_M: f64 = 1e-3;

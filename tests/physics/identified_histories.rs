@@ -78,10 +78,7 @@ fn random_solids_are_found_from_creep_and_relaxation_with_noise() {
             2 => (cone(1.2), held(Control::Load, load_n)),
             _ => (sphere(1e-3), in_two_holds(load_n)),
         };
-        let noise = Noise {
-            relative: 0.01,
-            with_errors: k % 2 == 0,
-        };
+        let noise = Noise::of(0.01, k % 2 == 0);
         let plan = plan(&truth, experiment, noise, &mut random);
         let found = found(&plan).unwrap_or_else(|error| panic!("{k}: {error}"));
         let (of_inside, of_all, of_worst) = judged(&truth, &found);
@@ -120,10 +117,7 @@ fn cells_find_the_solid_as_springs_do() {
     let truth = series(1e7, &[(2e7, 10.0)]);
     let ellipsoid: Arc<dyn Indenter> = Arc::new(Ellipsoid::new(1e-3, 2e-3).unwrap());
     let experiment = (ellipsoid, held(Control::Load, 0.1));
-    let noise = Noise {
-        relative: 0.01,
-        with_errors: true,
-    };
+    let noise = Noise::of(0.01, true);
     let mut plan = plan(&truth, experiment, noise, &mut Random(3));
     plan.branches = Some(1);
     let (inside, all, worst) = judged(&truth, &found(&plan).unwrap());

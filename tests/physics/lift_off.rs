@@ -7,7 +7,6 @@
 use crate::common::bars::{self, Judged, bar_over_error};
 use crate::common::solids::solid_of_ratio;
 use crate::prelude::*;
-use contact_dma::material::classical;
 
 /// One branch whose relaxation makes a solid this many times softer.
 fn zener(ratio: f64, time_s: f64) -> Material {

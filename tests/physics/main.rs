@@ -5,6 +5,8 @@
 mod near;
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/table.rs"]
+mod table;
 
 mod adhesion;
 mod bulk_modulus;

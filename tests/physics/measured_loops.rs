@@ -4,7 +4,6 @@
 use crate::prelude::*;
 use contact_dma::measured::moduli::{Contact, Radius};
 use contact_dma::measured::{Corrections, MeasuredLoop, Options, Quantity, Signal, analyse};
-use num_complex::Complex;
 
 /// An exact stabilised cycle under a sinusoidal load.
 struct Exact {

@@ -3,9 +3,7 @@
 use std::f64::consts::SQRT_2;
 
 use crate::prelude::*;
-use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::contact::half_space::periodic::{Periodic, PeriodicOperator};
-use contact_dma::indenter::{MapEdge, MapQuantity};
 
 const WAVELENGTH_M: f64 = 1e-3;
 const AMPLITUDE_M: f64 = 1e-6;

@@ -1,11 +1,7 @@
 //! The regression on the PMMA peak frequency: the main job against the committed baseline and the exact values.
 
-use std::path::Path;
-use std::sync::atomic::AtomicBool;
-
-use contact_dma::input::document::Document;
-use contact_dma::input::sweep_file;
-use contact_dma::sweep::case::Setup;
+use crate::prelude::*;
+use crate::table::Table;
 use contact_dma::sweep::plan::resolved;
 use contact_dma::sweep::search::peak::Peak;
 use contact_dma::sweep::search::run::{self, Mode, Outcome};
@@ -22,10 +18,6 @@ fn main_job() -> Outcome {
     run::run(&setup, &store, threads, &never, &()).unwrap()
 }
 
-fn relative(found: f64, expected: f64) -> f64 {
-    (found / expected - 1.0).abs()
-}
-
 /// Rounding differs between processors and mathematical libraries; the search stops at a distance of 1e-4, but at the same
 /// cycle everywhere unless a distance falls within rounding of it. One part in a million is far below the discretisation
 /// error and far above rounding.
@@ -36,39 +28,33 @@ fn the_pmma_sweep_reproduces_the_committed_baseline_and_its_peak_the_exact_frequ
     let outcome = main_job();
     let exact = [(0.008_440, 3.509_0e-6), (0.0757, 2.853_1e-6)];
     assert_eq!(outcome.peaks.len(), exact.len());
-    for (peak, (omega, loss)) in outcome.peaks.iter().zip(exact) {
+    for (peak, (omega, loss_j)) in outcome.peaks.iter().zip(exact) {
         // The peak is located to 0.1 %; the exact values carry four and three digits.
-        assert!(relative(peak.angular_frequency_rad_per_s, omega) < 2e-3);
+        near!(peak.angular_frequency_rad_per_s, omega, 2e-3);
         // The loss is low by 8e-5 at 200 steps per cycle.
-        assert!(relative(peak.energy_loss_j, loss) < 2e-4);
+        near!(peak.energy_loss_j, loss_j, 2e-4);
     }
-
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("reports/baseline/pmma");
-    let mut table = csv::Reader::from_path(folder.join("sweep.csv")).unwrap();
-    let headers = table.headers().unwrap().clone();
-    let column = |name: &str| headers.iter().position(|h| h == name).unwrap();
-    let [frequency, loss, phase, cycles] = [
-        "angular_frequency_rad_per_s",
-        "energy_loss_j",
-        "phase_lag_rad",
-        "cycles",
-    ]
-    .map(column);
-    let rows: Vec<_> = table.records().map(|row| row.unwrap()).collect();
-    assert_eq!(rows.len(), outcome.records.len());
-    for (row, record) in rows.iter().zip(&outcome.records) {
-        let value = |column: usize| row[column].parse::<f64>().unwrap();
+    let read = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+    let table = Table::of(&read("sweep.csv"));
+    assert_eq!(table.len(), outcome.records.len());
+    for (row, record) in outcome.records.iter().enumerate() {
+        let columns = [
+            "angular_frequency_rad_per_s",
+            "energy_loss_j",
+            "phase_lag_rad",
+        ];
+        let [omega, loss_j, phase_rad] = table.row(row, columns);
         let analysis = &record.result.as_ref().unwrap().analysis;
-        assert!(relative(record.angular_frequency_rad_per_s, value(frequency)) < 1e-14);
-        assert!(relative(analysis.energy_loss_j, value(loss)) < SAME);
-        assert!(relative(analysis.phase_lag_rad, value(phase)) < SAME);
-        assert_eq!(record.cycles.to_string(), row[cycles]);
+        near!(record.angular_frequency_rad_per_s, omega, 1e-14);
+        near!(analysis.energy_loss_j, loss_j, SAME);
+        near!(analysis.phase_lag_rad, phase_rad, SAME);
+        assert_eq!(record.cycles.to_string(), table.cells("cycles")[row]);
     }
-    let summary = std::fs::read(folder.join("summary.json")).unwrap();
-    let summary: serde_json::Value = serde_json::from_slice(&summary).unwrap();
-    let peaks: Vec<Peak> = serde_json::from_value(summary["peaks"].clone()).unwrap();
+    let mut summary: serde_json::Value = serde_json::from_str(&read("summary.json")).unwrap();
+    let peaks: Vec<Peak> = serde_json::from_value(summary["peaks"].take()).unwrap();
     for (peak, before) in outcome.peaks.iter().zip(&peaks) {
         let [now, then] = [peak, before].map(|peak| peak.angular_frequency_rad_per_s);
-        assert!(relative(now, then) < 1e-4);
+        near!(now, then, 1e-4);
     }
 }

@@ -1,9 +1,7 @@
 //! A flat punch on cells, whose rim is a staircase: as stiff as the face on any grid, and its loss inside the bar on every one.
 
 use crate::prelude::*;
-use contact_dma::indenter::Shifted;
 use contact_dma::reference::layer::LayerContact;
-use contact_dma::sweep::plan::layer::LayerPlan;
 
 const RADIUS_M: f64 = 1e-3;
 const OMEGA: f64 = 0.00844;
@@ -99,11 +97,8 @@ fn a_punch_beside_the_origin_is_inside_its_bar() {
 #[test]
 fn an_edge_that_is_no_rim_but_nearly_as_sharp_is_inside_its_bar() {
     // Flat, then steeply up, on which the contact hardly climbs.
-    let points = [
-        (0.0, 0.0),
-        (RADIUS_M, 0.0),
-        (3.0 * RADIUS_M, 2.0 * RADIUS_M),
-    ];
+    let r_m = RADIUS_M;
+    let points = [(0.0, 0.0), (r_m, 0.0), (3.0 * r_m, 2.0 * r_m)];
     let chamfered: Arc<dyn Indenter> = Arc::new(Profile::new(&points).unwrap());
     let springs = on_springs(Arc::clone(&chamfered));
     [56, 101].par_iter().for_each(|&cells| {

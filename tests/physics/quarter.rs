@@ -1,9 +1,6 @@
 //! The half-space engine on a quarter of a surface that is even in x and in y, against the whole of it.
 
 use crate::prelude::*;
-use contact_dma::contact::half_space::HalfSpace;
-use contact_dma::contact::half_space::convolution::Convolution;
-use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::contact::surface::{CellSurface, Response, Surface};
 
 /// Far below what is compared: the two stop at different iterates.

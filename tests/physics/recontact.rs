@@ -1,8 +1,6 @@
 //! Contacts that open and close again: both engines, under either control.
 
 use crate::prelude::*;
-use contact_dma::contact::axisymmetric::Axisymmetric;
-use contact_dma::contact::half_space::HalfSpace;
 use contact_dma::contact::surface::Surface;
 use contact_dma::reference::step_load::StepLoad;
 

@@ -2,18 +2,11 @@
 //! way through sweep files.
 
 use std::fs;
-use std::path::Path;
 
 use crate::prelude::*;
-use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::engine::domain;
-use contact_dma::indenter::{MapEdge, MapQuantity, Roughness, Shifted};
-use contact_dma::input::document::Document;
-use contact_dma::input::sweep_file;
-use contact_dma::reference::elastic::{ConeContact, Hertz};
 use contact_dma::reference::elliptic::EllipticHertz;
 use contact_dma::reference::power_law::PowerLawContact;
-use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::resolved;
 
 const LOAD_N: f64 = 10.0;

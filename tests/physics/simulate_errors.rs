@@ -4,7 +4,6 @@
 use crate::common::solids::spread_solid;
 use crate::prelude::*;
 use contact_dma::drive::Fineness;
-use contact_dma::simulation::HistoryRow;
 use contact_dma::simulation::errors::RowErrors;
 
 /// One to four branches, whose moduli add up to a third to a hundred thousand times the equilibrium modulus, over up to six

@@ -2,9 +2,7 @@
 //! numbers computed independently.
 
 use crate::prelude::*;
-use contact_dma::material::classical;
-use contact_dma::reference::elastic::{Hertz, flat_punch_approach_m};
-use contact_dma::sweep::case::Setup;
+use contact_dma::reference::elastic::flat_punch_approach_m;
 use contact_dma::sweep::search::peak;
 
 const RADIUS_M: f64 = 0.01;

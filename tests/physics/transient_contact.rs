@@ -4,7 +4,6 @@
 //! of S. Spinu, Advances in Tribology 2018, 9432894, figures 4 to 7.
 
 use crate::prelude::*;
-use contact_dma::contact::axisymmetric::Axisymmetric;
 use contact_dma::reference::step_load::{StepLoad, maxwell_falling_ramp_cubed_radius};
 use contact_dma::reference::transient::{
     maxwell_half_sine_cubed_radius, step_load_contact_radius_m,

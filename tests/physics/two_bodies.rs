@@ -15,11 +15,8 @@ fn record(material: Material, indenter: impl Indenter + 'static, hz: f64) -> Cas
 fn an_elastic_indenter_adds_its_compliance_and_dissipates_nothing() {
     let steel = library::find("steel").unwrap().material().unwrap();
     let own = pmma_material().contact_compliance().unwrap();
-    let added = Creep::new(
-        own.instantaneous_compliance() + (1.0 - 0.3 * 0.3) / 210e9,
-        own.branches().to_vec(),
-        None,
-    );
+    let at_once_per_pa = own.instantaneous_compliance() + (1.0 - 0.3 * 0.3) / 210e9;
+    let added = Creep::new(at_once_per_pa, own.branches().to_vec(), None);
     // With a Poisson ratio of zero C is D.
     let written_out = Material::from_creep(added.unwrap(), ModulusKind::Longitudinal, 0.0).unwrap();
     let pair = record(pmma_material().against(steel), ball(0.01), OMEGA_HZ);

@@ -2,17 +2,8 @@
 
 use crate::prelude::*;
 
-fn sweep(indenter: &str, drive: &str, rest: &str) -> String {
-    format!(
-        "title = \"t\"\n[material]\nlibrary = \"pmma\"\n[indenter]\n{indenter}\n[drive]\n{drive}\n[adhesion]\nwork = \"50 mJ/m^2\"\n\
-         {rest}[cycle]\nsteps = 20\nerror_bars = false\n"
-    )
-}
-
-const SPHERE: &str = "shape = \"sphere\"\nradius = \"100 nm\"";
-/// 2 pi w R is 31.4 nN.
-const PULL: &str = "mean = \"-5 nN\"\namplitude = \"20 nN\"";
-const ONE: &str = "[sweep]\nangular_frequency = [\"0.01 rad/s\"]\n";
+/// A sphere of 100 nm, whose pull 2 pi w R is 31.4 nN.
+const PULL: &str = include_str!("../inputs/adhesion.toml");
 
 #[test]
 fn a_load_may_be_a_pull_and_the_resolved_file_says_why() {
@@ -22,7 +13,7 @@ fn a_load_may_be_a_pull_and_the_resolved_file_says_why() {
         place.done(&format!("sweep adhesion.toml --quiet --out {out}"));
         place.table(&format!("{out}/sweep.csv"))
     };
-    let table = run(&sweep(SPHERE, PULL, ONE), "one");
+    let table = run(PULL, "one");
     let resolved = place.text("one/resolved.toml");
     assert!(resolved.contains("[adhesion]\nwork = \"0.05 J/m^2\"\nequilibrium_distance = "));
     let work = "a work of adhesion of 0.05 J/m² (DMT)";
@@ -31,8 +22,8 @@ fn a_load_may_be_a_pull_and_the_resolved_file_says_why() {
     says(table.cells("warnings")[0], &["tabor-parameter"]);
     assert_eq!(run(&resolved, "two"), table);
     // A larger sphere is attracted more: each value of an axis has its own pull-off load.
-    let radii = format!("{ONE}indenter.radius = [\"100 nm\", \"300 nm\"]\n");
-    let over = run(&sweep(SPHERE, PULL, &radii), "over");
+    let radii = "[sweep]\nindenter.radius = [\"100 nm\", \"300 nm\"]";
+    let over = run(&PULL.replace("[sweep]", radii), "over");
     let (over, own) = (over.cells("energy_loss_j"), table.cells("energy_loss_j"));
     assert_eq!(over[0], own[0]);
     assert_ne!(over[1], own[0]);

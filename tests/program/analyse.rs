@@ -8,10 +8,10 @@ use crate::prelude::*;
 use std::f64::consts::{PI, TAU};
 
 /// A record of a sinusoidal load and an approach that lags, with a deterministic noise, a thousandth of the amplitudes.
-pub(crate) struct Loop {
-    pub(crate) hz: f64,
-    pub(crate) lag: f64,
-    pub(crate) cycles: f64,
+pub struct Loop {
+    hz: f64,
+    lag: f64,
+    cycles: f64,
 }
 
 impl Loop {
@@ -30,37 +30,37 @@ impl Loop {
             .collect()
     }
 
-    pub(crate) fn loss_j(&self) -> f64 {
+    fn loss_j(&self) -> f64 {
         PI * 5.0 * 2e-6 * self.lag.sin()
     }
 
-    fn text(&self) -> String {
+    pub fn text(&self) -> String {
         record(&self.rows())
     }
 }
 
 /// A table of time (s), load (mN) and depth (nm) from the rows of a loop.
 fn record(rows: &[[f64; 3]]) -> String {
-    let rows = rows
-        .iter()
-        .map(|[t, w, d]| format!("{t:e},{:e},{:e}\n", 1e3 * w, 1e9 * d));
-    format!(
-        "Time (s),Load (mN),Depth (nm)\n{}",
-        rows.collect::<String>()
-    )
+    let row = |[t, w, d]: &[f64; 3]| format!("{t:e},{:e},{:e}\n", 1e3 * w, 1e9 * d);
+    let rows: String = rows.iter().map(row).collect();
+    format!("Time (s),Load (mN),Depth (nm)\n{rows}")
 }
 
 const THREE: &str = "analyse loop-0.csv loop-1.csv loop-2.csv";
 
-/// Three records of these loops, in files that [`THREE`] names.
-fn three() -> (Place, [Loop; 3]) {
-    let of = |hz, lag| Loop {
+/// Loops of three frequencies.
+pub fn loops() -> [Loop; 3] {
+    [(5.0, 0.2), (0.5, 0.1), (50.0, 0.3)].map(|(hz, lag)| Loop {
         hz,
         lag,
         cycles: 12.4,
-    };
-    let loops = [of(5.0, 0.2), of(0.5, 0.1), of(50.0, 0.3)];
+    })
+}
+
+/// Records of these, in files that [`THREE`] names.
+fn three() -> (Place, [Loop; 3]) {
     let place = Place::new();
+    let loops = loops();
     for (k, one) in loops.iter().enumerate() {
         place.put(&format!("loop-{k}.csv"), one.text());
     }

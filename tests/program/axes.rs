@@ -2,6 +2,7 @@
 
 use crate::plans::{self, again, sweep, try_sweep};
 use crate::prelude::*;
+use contact_dma::input::sweep_file;
 use contact_dma::quantity::FrequencyUnit;
 use contact_dma::report::warnings;
 use contact_dma::sweep::plan::Varied;
@@ -51,35 +52,31 @@ fn bare(plan: SweepPlan) -> Vec<CaseResult> {
 
 #[test]
 fn the_cases_over_any_number_are_those_of_separate_sweeps() {
-    let branch = "material.isotherm[0].branches[0].time";
-    // What stands in the file, the key, and by ascending number what a flag says and what it is.
-    for (axis, key, values) in [
+    let quoted = |value: &str| match value.parse::<f64>() {
+        Ok(_) => value.to_owned(),
+        Err(_) => format!("{value:?}"),
+    };
+    // By ascending number what stands in the file and what it is.
+    for (key, values) in [
         (
-            "material.temperature = [\"60 °C\", \"20 °C\"]",
             "material.temperature",
             [("20 °C", 293.15), ("60 °C", 333.15)],
         ),
+        ("indenter.radius", [("5 mm", 5e-3), ("20 mm", 20e-3)]),
+        ("material.poisson_ratio", [("0.3", 0.3), ("0.5", 0.5)]),
+        ("drive.mean", [("0.7", 0.7), ("2", 2.0)]),
         (
-            "\"indenter.radius\" = [\"5 mm\", \"20 mm\"]",
-            "indenter.radius",
-            [("5 mm", 5e-3), ("20 mm", 20e-3)],
-        ),
-        (
-            "material.poisson_ratio = { from = 0.3, to = 0.5, points = 2 }",
-            "material.poisson_ratio",
-            [("0.3", 0.3), ("0.5", 0.5)],
-        ),
-        (
-            "drive.mean = [0.7, 2]",
-            "drive.mean",
-            [("0.7", 0.7), ("2", 2.0)],
-        ),
-        (
-            &format!("{branch:?} = [\"3 s\", \"0.5 s\"]"),
-            branch,
+            "material.isotherm[0].branches[0].time",
             [("0.5 s", 0.5), ("3 s", 3.0)],
         ),
     ] {
+        let [low, high] = values.map(|(value, _)| quoted(value));
+        let axis = match key {
+            "material.poisson_ratio" => {
+                format!("{key} = {{ from = {low}, to = {high}, points = 2 }}")
+            }
+            _ => format!("{key:?} = [{high}, {low}]"),
+        };
         let separate = values.into_iter().flat_map(|(value, number)| {
             let results = bare(with_flags(&[&format!("{key}={value}")]));
             results
@@ -87,7 +84,7 @@ fn the_cases_over_any_number_are_those_of_separate_sweeps() {
                 .map(move |result| (Some(number), result))
         });
         let separate: Vec<_> = separate.collect();
-        let plan = read(axis);
+        let plan = read(&axis);
         // What is resolved is the same sweep.
         assert!(results(again(&plan)) == separate, "{axis}");
         assert!(results(plan) == separate, "{axis}");

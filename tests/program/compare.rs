@@ -126,8 +126,6 @@ fn columns_that_other_steps_leave_unjudged_are_counted() {
     place.put("b.csv", text);
     let (code, text) = compared(&place, "a/sweep.csv b.csv");
     assert_eq!(code, 0, "{text}");
-    says(
-        &text,
-        &["3 not judged: other steps or nodes, no error bars"],
-    );
+    let unjudged = "3 not judged: other steps or nodes, no error bars";
+    says(&text, &[unjudged]);
 }

@@ -1,21 +1,13 @@
 //! Files of a user survive, whatever the folder: the program replaces and removes what it has written itself, and nothing else.
 
+use crate::analyse;
 use crate::prelude::*;
 
 /// A folder with the inputs of every command, and a finished sweep in `swept`.
 pub fn inputs() -> Place {
     let place = Place::lent("small.toml step.toml creep.csv dma.csv identify.toml");
-    for k in 0..2 {
-        let row = |i: usize| {
-            let (t, w) = (0.05 * i as f64, 2.0 + k as f64);
-            let (load, depth) = ((w * t).sin(), (w * t - 0.1).sin());
-            format!("{t},{},{}\n", 10.0 + 5.0 * load, 2e-5 + 4e-6 * depth)
-        };
-        let rows: String = (0..400).map(row).collect();
-        place.put(
-            &format!("raw/{k}.csv"),
-            format!("time_s,load_n,approach_m\n{rows}"),
-        );
+    for (k, one) in analyse::loops().iter().enumerate() {
+        place.put(&format!("raw/{k}.csv"), one.text());
     }
     place.done("sweep small.toml --out swept --no-figures");
     place.put("cycles.csv", place.text("swept/sweep.csv"));

@@ -22,22 +22,16 @@ pub fn assert_current(file: impl AsRef<Path>, expected: &str) {
         fs::write(&path, expected).unwrap();
     }
     let found = fs::read_to_string(&path).unwrap_or_default();
-    assert!(
-        found == expected,
-        "{} is stale: with RENEW=1 this test writes it anew:\n{expected}",
-        file.as_ref().display()
-    );
+    let name = file.as_ref().display();
+    let renew = "with RENEW=1 this test writes it anew";
+    assert!(found == expected, "{name} is stale: {renew}:\n{expected}");
 }
 
 #[test]
 fn the_command_prints_the_schemas() {
     for (name, kind) in FileKind::NAMES {
-        let printed = program()
-            .args(["schema", "--kind", name])
-            .assert()
-            .success();
-        let printed = String::from_utf8(printed.get_output().stdout.clone()).unwrap();
-        assert_eq!(printed, schema::text(*kind));
+        let printed = Place::new().done(&format!("schema --kind {name}"));
+        assert_eq!(printed.stdout, schema::text(*kind));
     }
 }
 
@@ -84,11 +78,8 @@ fn every_example_names_its_schema_and_validates() {
             .find_map(|line| line.strip_prefix("#:schema "))
             .unwrap();
         let named = path.parent().unwrap().join(named).canonicalize().unwrap();
-        assert!(
-            named.ends_with(format!("sweeps/schema/{name}.json")),
-            "{}",
-            path.display()
-        );
+        let is_named = named.ends_with(format!("sweeps/schema/{name}.json"));
+        assert!(is_named, "{}", path.display());
         assert_eq!(problems(kind, &text), "", "{}", path.display());
     }
 }
@@ -278,11 +269,9 @@ fn see_changes(kind: FileKind, text: &str, seen: &mut BTreeSet<String>) {
                 return false;
             };
             let of_figures = path.starts_with("figures.");
-            assert!(
-                !of_figures || identity(&after) == identity(&before),
-                "{path}"
-            );
-            after != before && (of_figures || identity(&after) != identity(&before))
+            let is_same = identity(&after) == identity(&before);
+            assert!(is_same || !of_figures, "{path}");
+            after != before && (of_figures || !is_same)
         });
         if changes {
             seen.insert(path);

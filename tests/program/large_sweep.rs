@@ -11,33 +11,14 @@ fn array(bytes: &[u8], name: &str) -> (Vec<usize>, Vec<f64>) {
     let mut file = zip.by_name(&format!("{name}.npy")).unwrap();
     let mut npy = Vec::new();
     std::io::Read::read_to_end(&mut file, &mut npy).unwrap();
-    let length = usize::from(u16::from_le_bytes([npy[8], npy[9]]));
-    let header = std::str::from_utf8(&npy[10..10 + length]).unwrap();
-    let (_, shape) = header.split_once("'shape': (").unwrap();
-    let (shape, _) = shape.split_once(')').unwrap();
-    let sides = shape.split(',').filter_map(|side| side.trim().parse().ok());
-    let values = npy[10 + length..].chunks_exact(8);
-    let values = values.map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap()));
-    (sides.collect(), values.collect())
+    crate::program::npy(&npy)
 }
 
 #[test]
 fn profiles_of_cases_on_different_grids_are_padded_each_by_itself() {
     // Two summits in a row along x, and in one along y: on many cells along x, and on few.
-    let summits = |name: &str, [first, second]: [&str; 2]| {
-        format!(
-            "[[sweep.indenter]]\nname = \"{name}\"\nshape = \"asperities\"\nasperities = [\n{{ center = {first}, radius = \"1 mm\" }},\n\
-             {{ center = {second}, radius = \"1 mm\" }},\n]\n"
-        )
-    };
-    let text = format!(
-        "title = \"rows\"\n[material]\nlibrary = \"pmma\"\n[drive]\nmean = \"1 N\"\namplitude = \"0.5 N\"\n[cycle]\nsteps = 32\n\
-         error_bars = false\n[solver]\nengine = \"half-space\"\ncells = 32\n[sweep]\nangular_frequency = [\"0.01 rad/s\"]\n{}{}",
-        summits("along y", ["[0.0, \"-0.2 mm\"]", "[0.0, \"0.2 mm\"]"]),
-        summits("along x", ["[\"-0.2 mm\", 0.0]", "[\"0.2 mm\", 0.0]"]),
-    );
-    let place = Place::new();
-    place.swept(&text);
+    let place = Place::lent("rows.toml");
+    place.done("sweep rows.toml --no-figures --out out");
     let bytes = place.bytes("out/cycles.npz");
     let (shape, pressures) = array(&bytes, "profile_pressure_pa");
     assert_eq!(shape, [2, 4, 32]);

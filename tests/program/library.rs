@@ -18,17 +18,6 @@ use contact_dma::sweep::search::run::{self, Mode};
 use contact_dma::sweep::store::Store;
 use contact_dma::sweep::store::records::Records;
 
-/// Of a sweep file, behind its question.
-const REST: &str = r#"[sweep]
-angular_frequency = [1e-3, 5e-3, 2e-2, 1e-1]
-refine = true
-drive.amplitude = [2, 8]
-[cycle]
-steps = 32
-[solver]
-springs = 32
-"#;
-
 fn sweep() -> Sweep {
     let drive = HarmonicDrive::load(10.0, 5.0).unwrap();
     let sweep = Sweep::new(pmma(), Sphere::new(0.01).unwrap(), drive);
@@ -38,7 +27,7 @@ fn sweep() -> Sweep {
 #[test]
 fn a_sweep_from_values_in_memory_is_that_of_a_file_in_a_folder_to_the_last_bit() {
     let folder = tempfile::TempDir::new().unwrap();
-    let plan = plans::sweep(&pmma_sweep(REST));
+    let plan = plans::sweep(include_str!("../inputs/refined.toml"));
     let store = Store::open(folder.path(), &resolved_text(&plan), false).unwrap();
     let setup = Setup::new(plan).unwrap();
     let never = AtomicBool::new(false);

@@ -3,13 +3,11 @@
 use crate::prelude::*;
 use contact_dma::material::Relaxation;
 
-const THREE: &str = r#"[sweep]
-angular_frequency = ["0.004 rad/s", "0.008 rad/s", "0.02 rad/s"]
-"#;
+const THREE: &str = include_str!("../inputs/three-at-defaults.toml");
 
 #[test]
 fn json_holds_the_summary_and_every_column_of_every_case() {
-    let place = Place::with("small.toml", &pmma_sweep(THREE));
+    let place = Place::with("small.toml", THREE);
     for quiet in ["", "--quiet"] {
         let run = format!("sweep small.toml --format json --out out {quiet}");
         let printed = place.done(&run).json();
@@ -41,7 +39,7 @@ fn json(place: &Place, line: &str) -> Value {
 
 #[test]
 fn every_command_that_finds_something_prints_it_as_one_object() {
-    let place = Place::with("small.toml", &pmma_sweep(THREE));
+    let place = Place::with("small.toml", THREE);
     let plan = json(&place, "plan small.toml");
     assert_eq!(plan["cases"].as_array().unwrap().len(), 3);
     assert_eq!(plan["cases"][1]["angular_frequency_rad_per_s"], 0.008);
@@ -92,11 +90,8 @@ fn materials_are_printed_as_objects_too() {
     let branches = shown["creep"]["branches"].as_array().unwrap().iter();
     let branches = branches.map(|b| (number(b, "compliance_per_pa"), number(b, "time_s")));
     let branches: Vec<_> = branches.collect();
-    let creep = creep(
-        number(&shown["creep"], "instantaneous_per_pa"),
-        &branches,
-        None,
-    );
+    let at_once_per_pa = number(&shown["creep"], "instantaneous_per_pa");
+    let creep = creep(at_once_per_pa, &branches, None);
     let row = |k| {
         let time_s = 10_f64.powf(f64::from(k) / 10.0 - 1.0);
         format!("{time_s},{}\n", creep.compliance(time_s))
@@ -282,16 +277,9 @@ fn a_material_from_dynamic_data_is_exported_with_its_shift() {
     let solid = series(1e6, &branches);
     let (c1, c2) = (8.86, 101.6);
     let shift = |celsius: f64| -c1 * (celsius - 25.0) / (c2 + celsius - 25.0);
-    let mut table = "temperature_c,frequency_hz,storage_modulus_pa,loss_modulus_pa\n".to_owned();
-    for celsius in [5.0, 15.0, 25.0, 35.0, 45.0, 55.0] {
-        for k in 0..11 {
-            let hertz = 10_f64.powf(f64::from(k) / 5.0 - 1.0);
-            let reduced = std::f64::consts::TAU * hertz * 10_f64.powf(shift(celsius));
-            let modulus = solid.complex_modulus(reduced);
-            let (storage, loss) = (modulus.re, modulus.im);
-            table.push_str(&format!("{celsius},{hertz},{storage},{loss}\n"));
-        }
-    }
+    let temperatures = [5.0, 15.0, 25.0, 35.0, 45.0, 55.0];
+    let hertz = log_spaced(0.1, 10.0, 11);
+    let table = dynamic_csv(&solid, (&temperatures, &hertz), shift, |modulus| modulus);
     place.put("dma.csv", table);
     let block = "[material]\npoisson_ratio = 0.45\n[material.dynamic]\nfile = \"dma.csv\"\nmodulus = \"shear\"\n\
                  reference_temperature = \"25 °C\"\n";
@@ -364,10 +352,8 @@ fn the_unit_of_the_frequencies_asked_for_comes_first_in_every_output() {
         says(&columns, &["frequency_hz,angular_frequency_rad_per_s"]);
     }
     let caption = read("energy-loss.caption.txt");
-    says(
-        &caption,
-        &["over frequency f: ", "at f = (1.3", " × 10⁻³ Hz"],
-    );
+    let parts = ["over frequency f: ", "at f = (1.3", " × 10⁻³ Hz"];
+    says(&caption, &parts);
     assert!(!caption.contains("rad/s"), "{caption}");
     let page = read("index.html");
     assert!(page.contains("<th scope=\"col\" data-column=\"frequency_hz\">f / Hz</th>"));
@@ -385,8 +371,8 @@ fn the_unit_of_the_frequencies_asked_for_comes_first_in_every_output() {
 
 #[test]
 fn nothing_that_is_piped_or_asked_to_be_plain_is_coloured() {
-    let place = Place::with("good.toml", &pmma_sweep(THREE));
-    place.put("bad.toml", pmma_sweep(THREE).replace("radius", "raduis"));
+    let place = Place::with("good.toml", THREE);
+    place.put("bad.toml", THREE.replace("radius", "raduis"));
     for file in ["good.toml", "bad.toml"] {
         for no_color in [None, Some(("NO_COLOR", "1"))] {
             let mut command = program();
@@ -401,7 +387,7 @@ fn nothing_that_is_piped_or_asked_to_be_plain_is_coloured() {
 
 #[test]
 fn a_plan_counts_what_an_accuracy_takes() {
-    let place = Place::with("small.toml", &pmma_sweep(THREE));
+    let place = Place::with("small.toml", THREE);
     let time_s = |accuracy: &str| {
         let plan = json(&place, &format!("plan small.toml --accuracy {accuracy}"));
         let cases = plan["cases"].as_array().unwrap().iter();

@@ -158,11 +158,7 @@ fn a_sweep_of_two_axes_names_its_drives() {
 
 #[test]
 fn a_page_of_a_history_holds_its_signals_profiles_and_fields() {
-    let text = "title = \"<script>\"\n[material]\nlibrary = \"pmma\"\n[indenter]\nshape = \"sphere\"\nradius = \"10 mm\"\n\
-                [drive]\ncontrol = \"load\"\nsegments = [{ kind = \"step\", to = \"10 N\", duration = \"50 s\" }, \
-                { kind = \"step\", to = \"2 N\", duration = \"50 s\" }]\n\
-                [output]\nprofiles_at = [\"10 s\", \"60 s\"]\nfields_at = [\"10 s\", \"60 s\"]\nfield_cells = 100\n";
-    let (page, place) = page(text, 0);
+    let (page, place) = page(include_str!("../inputs/script.toml"), 0);
     assert_eq!(nesting_problems(&page), Vec::<String>::new());
     assert_eq!(page.matches("<script").count(), 2);
     let data = data(&page);

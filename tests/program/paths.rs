@@ -50,10 +50,8 @@ fn names_in_a_file_start_from_its_folder_and_names_in_a_flag_from_the_working_fo
         fs::rename(&there, &away).unwrap();
         place.done(&simulate(&[flag]));
         let refused = place.refused(&simulate(&[]));
-        says(
-            &refused,
-            &[&in_file, "the folder of the file it is written in"],
-        );
+        let from = "the folder of the file it is written in";
+        says(&refused, &[&in_file, from]);
         fs::rename(&away, &there).unwrap();
     }
     fs::remove_dir_all(place.path("project/data")).unwrap();

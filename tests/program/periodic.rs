@@ -2,28 +2,19 @@
 
 use crate::prelude::*;
 
-const ROUGH: &str = "shape = \"rough\"\ncells = 32\nspacing = \"2 um\"\nhurst_exponent = 0.8\nrms_height = \"50 nm\"\n\
-                     cut_off_wavelength = \"8 um\"\nseed = 3\nedge = \"periodic\"";
+const SWEEP: &str = include_str!("../inputs/rough.toml");
 
 const ONE: &str = "angular_frequency = [\"0.01 rad/s\"]";
-
-fn sweep(indenter: &str, rest: &str) -> String {
-    format!(
-        "title = \"t\"\n[material]\nlibrary = \"pmma\"\n[indenter]\n{indenter}\n[drive]\nmean = \"0.1 N\"\namplitude = \"0.05 N\"\n\
-         [sweep]\n{ONE}\n[cycle]\nsteps = 20\nerror_bars = false\n{rest}"
-    )
-}
 
 #[test]
 fn a_patch_that_repeats_itself_is_pressed_beyond_what_its_edge_would_allow() {
     let place = Place::new();
-    let text = sweep(ROUGH, "");
-    let table = place.swept(&text);
+    let table = place.swept(SWEEP);
     let resolved = place.text("out/resolved.toml");
     assert!(resolved.contains("edge = \"periodic\""));
     assert_eq!(place.swept(&resolved), table);
     // 24 MPa on average: the contact of a single patch reaches its edge.
-    place.put("single.toml", text.replace("\nedge = \"periodic\"", ""));
+    place.put("single.toml", SWEEP.replace("\nedge = \"periodic\"", ""));
     place.run("sweep single.toml").ended(3);
 }
 
@@ -35,10 +26,9 @@ fn a_mean_pressure_is_the_load_over_the_area_of_a_period() {
     let area_m2 = (32.0 * 2e-6) * (32.0 * 2e-6);
     let [mean, amplitude] = [0.1 / area_m2, 0.05 / area_m2];
     let pressure = format!("control = \"pressure\"\nmean = {mean:?}\namplitude = {amplitude:?}");
-    let text = sweep(ROUGH, "");
     let loss_j = |text: &str| place.swept(text).number(0, "energy_loss_j");
-    let by_load = loss_j(&text);
-    let by_pressure = loss_j(&text.replace(load, &pressure));
+    let by_load = loss_j(SWEEP);
+    let by_pressure = loss_j(&SWEEP.replace(load, &pressure));
     near!(by_pressure, by_load, 1e-12);
     // The resolved file tells the load, and is the same sweep again.
     let resolved = place.text("out/resolved.toml");
@@ -46,7 +36,7 @@ fn a_mean_pressure_is_the_load_over_the_area_of_a_period() {
     assert_eq!(loss_j(&resolved), by_pressure);
     // As an axis too.
     let axis = format!("{ONE}\ndrive.mean = [\"20 MPa\", \"30 MPa\"]");
-    let over = place.swept(&text.replace(load, &pressure).replace(ONE, &axis));
+    let over = place.swept(&SWEEP.replace(load, &pressure).replace(ONE, &axis));
     near!(over.number(0, "drive_mean"), 20e6 * area_m2, 1e-12);
 }
 
@@ -56,8 +46,9 @@ fn every_kind_of_segment_may_be_a_mean_pressure() {
     let place = Place::new();
     let of = |control: &str, one: f64| {
         let unit = if control == "load" { "N" } else { "Pa" };
+        let (head, _) = SWEEP.split_once("[drive]").unwrap();
         let history = format!(
-            "title = \"t\"\n[material]\nlibrary = \"pmma\"\n[indenter]\n{ROUGH}\n[drive]\ncontrol = \"{control}\"\n\
+            "{head}[drive]\ncontrol = \"{control}\"\n\
              segments = [\n{{ kind = \"ramp\", to = \"{one:?} {unit}\", duration = \"1 s\" }},\n\
              {{ kind = \"step\", to = \"{:?} {unit}\", duration = \"1 s\" }},\n\
              {{ kind = \"sine\", mean = {one:?}, amplitude = {:?}, frequency = 1, cycles = 1 }},\n\

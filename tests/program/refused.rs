@@ -83,10 +83,8 @@ fn every_wrong_file_is_refused_with_the_messages_beside_it() {
         for message in files(kind, "stderr") {
             let refused = files(kind, extension).into_iter();
             let mut messages = refused.map(|file| file.with_extension("stderr"));
-            assert!(
-                messages.any(|of| of == message),
-                "{message:?} is of no file"
-            );
+            let is_of_one = messages.any(|of| of == message);
+            assert!(is_of_one, "{message:?} is of no file");
         }
     }
 }

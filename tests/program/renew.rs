@@ -1,8 +1,6 @@
 //! What the repository repeats of the tables of keys and columns and of the commands is what these say.
 
 use crate::prelude::*;
-use predicates::prelude::PredicateBooleanExt;
-use predicates::str::contains;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -10,9 +8,7 @@ fn root() -> &'static Path {
 
 #[test]
 fn nothing_generated_is_stale() {
-    let mut renew = program();
-    renew.args(["renew", "--check"]).arg(root());
-    renew.assert().success();
+    Place::new().done(&format!("renew --check '{}'", root().display()));
 }
 
 /// The files of the repository that are generated, or of which parts are.
@@ -22,49 +18,36 @@ const FILES: &str = "README.md src/guide/input_files.md src/guide/own_indenter.m
 
 #[test]
 fn what_is_stale_is_named_and_renewed() {
-    let folder = TempDir::new().unwrap();
+    let place = Place::new();
+    let own = |name: &str| fs::read_to_string(root().join(name)).unwrap();
     for name in FILES.split_whitespace() {
-        let copy = folder.path().join(name);
-        fs::create_dir_all(copy.parent().unwrap()).unwrap();
-        fs::copy(root().join(name), copy).unwrap();
+        place.put(name, own(name));
     }
-    let path = |name: &str| folder.path().join(name);
-    let readme = fs::read_to_string(path("README.md")).unwrap();
-    fs::write(path("README.md"), readme.replace("`flat-punch`, ", "")).unwrap();
-    fs::remove_file(path("sweeps/schema/sweep.json")).unwrap();
-    let renew = |check: &[&str]| {
-        let mut renew = program();
-        renew.arg("renew").args(check).current_dir(&folder).assert()
-    };
-    let named = contains("stale: README.md, sweeps/schema/sweep.json; `cargo run -- renew`");
-    renew(&["--check"]).code(1).stderr(named);
-    let renewed = contains("Renewed: README.md, sweeps/schema/sweep.json.");
-    renew(&[])
-        .success()
-        .stdout(renewed.and(contains("python/stubs.sh")));
+    place.put("README.md", own("README.md").replace("`flat-punch`, ", ""));
+    fs::remove_file(place.path("sweeps/schema/sweep.json")).unwrap();
+    let stale = "stale: README.md, sweeps/schema/sweep.json; `cargo run -- renew`";
+    says(&place.ends("renew --check", 1), &[stale]);
+    let renewed = "Renewed: README.md, sweeps/schema/sweep.json.";
+    place.done("renew").says(&[renewed, "python/stubs.sh"]);
     for name in FILES.split_whitespace() {
-        let expected = fs::read_to_string(root().join(name)).unwrap();
-        assert_eq!(fs::read_to_string(path(name)).unwrap(), expected, "{name}");
+        assert_eq!(place.text(name), own(name), "{name}");
     }
-    renew(&["--check"]).success();
-    fs::write(path("README.md"), "No marks.").unwrap();
-    let lacks = contains("README.md has no `<!-- commands: begin -->`");
-    renew(&[]).code(1).stderr(lacks);
-    fs::remove_file(path("README.md")).unwrap();
-    renew(&[])
-        .code(1)
-        .stderr(contains("give the folder of the repository"));
+    place.done("renew --check");
+    place.put("README.md", "No marks.");
+    let lacks = "README.md has no `<!-- commands: begin -->`";
+    says(&place.ends("renew", 1), &[lacks]);
+    fs::remove_file(place.path("README.md")).unwrap();
+    let nowhere = "give the folder of the repository";
+    says(&place.ends("renew", 1), &[nowhere]);
 }
 
 #[test]
 fn it_is_in_neither_help_nor_completions() {
-    for arguments in [
-        ["help", "--"],
-        ["completions", "bash"],
-        ["completions", "fish"],
-    ] {
-        let arguments = arguments.iter().filter(|word| **word != "--");
-        let shown = program().args(arguments).assert().success();
-        shown.stdout(contains("completions").and(contains("renew").not()));
+    for line in ["help", "completions bash", "completions fish"] {
+        let shown = Place::new().done(line).stdout;
+        assert!(
+            shown.contains("completions") && !shown.contains("renew"),
+            "{line}"
+        );
     }
 }

@@ -363,8 +363,8 @@ fn fields_are_arrays_for_numpy_and_images_for_paraview() {
     );
     let spacing = place.table("out/fields/index.csv").number(0, "spacing_x_m");
     for k in 0..2 {
-        let values = npy(&place.bytes(&format!("out/fields/{k}-pressure_pa.npy")));
-        assert_eq!(values.len(), 24 * 24);
+        let (shape, values) = npy(&place.bytes(&format!("out/fields/{k}-pressure_pa.npy")));
+        assert_eq!(shape, [24, 24]);
         // The pressure carries the load, and is symmetric.
         assert!((values.iter().sum::<f64>() * spacing * spacing - 10.0).abs() < 1e-9);
         assert!((values[24 * 10 + 7] - values[24 * 13 + 16]).abs() < 1e-6 * values[24 * 12 + 12]);

@@ -3,15 +3,6 @@
 use crate::prelude::*;
 use std::collections::HashSet;
 
-const COARSE: &str = r#"[sweep]
-angular_frequency = ["3e-3 rad/s", "0.03 rad/s"]
-[cycle]
-steps = 32
-error_bars = false
-[solver]
-springs = 60
-"#;
-
 /// A Zener solid as a creep series, of these compliances (1/Pa).
 fn zener(header: &str, instantaneous: f64, branch: f64, time: f64) -> String {
     format!(
@@ -21,10 +12,8 @@ fn zener(header: &str, instantaneous: f64, branch: f64, time: f64) -> String {
 }
 
 fn sweep_of(material: &str, indenter: &str) -> String {
-    format!(
-        "title = \"Two bodies\"\n{material}[indenter]\nshape = \"sphere\"\nradius = \"10 mm\"\n{indenter}[drive]\n\
-         mean = \"10 N\"\namplitude = \"5 N\"\n{COARSE}"
-    )
+    let text = include_str!("../inputs/two-bodies.toml").replace("# The body.\n", material);
+    text.replace("# The indenter.\n", indenter)
 }
 
 /// The table of a sweep, and the resolved file.

@@ -6,9 +6,7 @@ use contact_dma::sweep::record::warning::Warning;
 use contact_dma::sweep::store::Store;
 use contact_dma::sweep::store::entry::Purpose;
 
-const THREE: &str = r#"[sweep]
-angular_frequency = ["0.004 rad/s", "0.008 rad/s", "0.02 rad/s"]
-"#;
+const THREE: &str = include_str!("../inputs/three-at-defaults.toml");
 
 /// Everything a command left and printed.
 struct Left {
@@ -71,14 +69,14 @@ impl Left {
 
 #[test]
 fn a_sweep_inside_the_model_is_not_warned_of() {
-    let left = run("sweep", &pmma_sweep(THREE), &[]);
+    let left = run("sweep", THREE, &[]);
     left.warns_of(&[]);
     assert_eq!(left.column("warnings"), ["", "", ""]);
 }
 
 #[test]
 fn ten_newtons_on_a_tip_of_ten_nanometres_are_warned_of_everywhere() {
-    let text = pmma_sweep(THREE).replace("10 mm", "10 nm");
+    let text = THREE.replace("10 mm", "10 nm");
     let left = run("sweep", &text, &[]);
     left.warns_of(&["large-strain", "steep-slope"]);
     assert_eq!(left.column("warnings"), ["large-strain steep-slope"; 3]);
