@@ -232,12 +232,16 @@ pub(super) fn within(name: &str, bytes: &[u8], most: usize, help: &str) -> Resul
     Err(Diagnostic::new(message).help(help))
 }
 
-/// The bytes of the file that a key names, and what messages call it. `None` where a problem was reported.
+/// The bytes of the file that a key names, or of the table given under this name, and what messages call it. `None` where a problem was
+/// reported.
 pub(super) fn named(
     file: &Located<String>,
     folder: &Path,
     problems: &Problems,
 ) -> Option<(String, Vec<u8>)> {
+    if let Some(text) = file.location.source().table(&file.value) {
+        return Some((file.value.clone(), text.as_bytes().to_vec()));
+    }
     let path = file.path_from(folder);
     let name = path.display().to_string();
     match read_limited(&path, MAX_BYTES) {

@@ -43,21 +43,36 @@ pub(super) const MAX_SHOWN: usize = 20;
 /// Diagnostics kept for sorting. Bounds the memory a hostile file can ask for; the rest is only counted.
 const MAX_KEPT: usize = 1000;
 
-/// A text that problems can point into: a file, or a flag of the command line.
+/// A text that problems can point into: a file, a table that a program holds, or a flag of the command line.
 pub struct Source {
     name: String,
     text: String,
     /// Files come before flags, flags in the order given.
     rank: usize,
+    /// Tables that a file may name as files of its own, by name and text.
+    tables: Vec<(String, String)>,
 }
+
+/// How the name of a table in memory begins, which was an argument of a call: its places are rows.
+const ARGUMENT: &str = "argument";
 
 impl Source {
     /// The text of a file, under the name by which the user knows it.
     pub fn file(name: impl Into<String>, text: impl Into<String>) -> Arc<Self> {
+        Self::with_tables(name, text, Vec::new())
+    }
+
+    /// The same, of a file that names these tables, by name and text, as if they were files.
+    pub fn with_tables(
+        name: impl Into<String>,
+        text: impl Into<String>,
+        tables: Vec<(String, String)>,
+    ) -> Arc<Self> {
         Arc::new(Self {
             name: name.into(),
             text: text.into(),
             rank: 0,
+            tables,
         })
     }
 
@@ -67,6 +82,7 @@ impl Source {
             name: "command line".to_owned(),
             text: text.into(),
             rank: ordinal.saturating_add(1),
+            tables: Vec::new(),
         })
     }
 
@@ -83,6 +99,21 @@ impl Source {
     /// Whether this is a flag, which has no line number worth showing.
     pub fn is_flag(&self) -> bool {
         self.rank > 0
+    }
+
+    /// The text of a table that was given under this name, in place of a file.
+    pub(super) fn table(&self, name: &str) -> Option<&str> {
+        let mut tables = self.tables.iter();
+        tables.find_map(|(known, text)| (known == name).then_some(text.as_str()))
+    }
+
+    /// What messages call a line, by its number from 1, of a table in memory; `None` of a file.
+    fn row(&self, line: usize) -> Option<String> {
+        let is_table = self.name.starts_with(ARGUMENT);
+        is_table.then(|| match line {
+            1 => format!("{}, the names of its columns", self.name),
+            line => format!("{}, row {}", self.name, line - 1),
+        })
     }
 }
 
@@ -141,7 +172,11 @@ impl Location {
     pub fn line(&self) -> String {
         let start = self.span.as_ref().map(|span| span.start);
         match start.and_then(|start| self.source.text.get(..start)) {
-            Some(before) => format!("{}:{}", self.source.name, before.matches('\n').count() + 1),
+            Some(before) => {
+                let line = before.matches('\n').count() + 1;
+                let row = self.source.row(line);
+                row.unwrap_or_else(|| format!("{}:{line}", self.source.name))
+            }
             None => self.source.name.clone(),
         }
     }

@@ -141,10 +141,23 @@ impl Document {
     /// # Errors
     /// Text that is not TOML: one diagnostic for every line that is wrong in itself.
     pub fn parse(name: &str, text: &str) -> Result<Self, Diagnostics> {
+        Self::with_tables(name, text, Vec::new())
+    }
+
+    /// The same of a text that names tables, given by name and text, where it would name data files. A name that begins with
+    /// `argument` counts rows in messages.
+    ///
+    /// # Errors
+    /// As [`Document::parse`].
+    pub fn with_tables(
+        name: &str,
+        text: &str,
+        tables: Vec<(String, String)>,
+    ) -> Result<Self, Diagnostics> {
         if text.len() > MAX_BYTES {
             return Err(too_long(name).into());
         }
-        let source = Source::file(name, text.trim_start_matches('\u{feff}'));
+        let source = Source::with_tables(name, text.trim_start_matches('\u{feff}'), tables);
         let (table, errors) = toml::de::DeTable::parse_recoverable(source.text());
         if errors.is_empty() {
             Ok(Self {

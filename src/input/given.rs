@@ -144,4 +144,23 @@ mod tests {
             assert!(refused.contains(word), "{refused}");
         }
     }
+
+    #[test]
+    fn a_table_in_memory_is_read_as_the_file_that_it_stands_for_and_its_places_are_rows() {
+        let block = "[material]\npoisson_ratio = 0.4\n[material.dynamic]\nmodulus = \"longitudinal\"\nfile = \"argument `file`\"\n";
+        let read = |third: &str| {
+            let head = "angular_frequency_rad_per_s,storage_modulus_pa,loss_modulus_pa\n1,1e9,1e8\n2,1.1e9,1e8\n";
+            let table = format!("{head}4,{third},1e8\n8,1.3e9,1e8\n");
+            let tables = vec![("argument `file`".to_owned(), table)];
+            material_with_fit(&Document::with_tables("call", block, tables).unwrap())
+        };
+        let (_, fit) = read("1.2e9").unwrap();
+        assert_eq!(fit.unwrap().files, ["argument `file`"]);
+        let refused = read("-1.2e9").unwrap_err().to_string();
+        assert!(refused.contains("argument `file`, row 3"), "{refused}");
+        assert!(refused.contains("| 4,-1.2e9,1e8"), "{refused}");
+        // Without the table it is a file that is not there.
+        let refused = material_with_fit(&document(block)).unwrap_err();
+        assert!(refused.to_string().contains("cannot read"), "{refused}");
+    }
 }

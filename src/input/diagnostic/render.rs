@@ -99,10 +99,11 @@ fn show_source<'a>(
     // Only the lines from the first label to the last are handed over: the file may be long.
     let window = line_start(text, first)..line_end(text, last);
     let line_number = 1 + text[..window.start].matches('\n').count();
+    let row = source.row(line_number);
     let mut snippet = Snippet::source(&text[window.clone()])
-        .path(defused(source.name()))
         .line_start(line_number)
-        .line_numbering(!source.is_flag());
+        .line_numbering(!source.is_flag() && row.is_none())
+        .path(defused(row.as_deref().unwrap_or(source.name())));
     for (label, span) in placed.into_iter().zip(spans) {
         let kind = match label.is_primary {
             true => AnnotationKind::Primary,
