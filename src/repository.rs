@@ -1,12 +1,12 @@
 //! What the repository repeats of the tables of keys and columns and of the commands: schemas, references, lists in README and guides,
-//! words of the fuzzer.
+//! words of the fuzzer, signatures of the Python package.
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
 use crate::input::keys::{self, FileKind};
-use crate::input::{key_reference, schema};
+use crate::input::{key_reference, python_calls, schema};
 use crate::report::quantities::{CYCLES, HISTORY, SWEEP, reference};
 
 /// What stands in a file of the repository.
@@ -68,6 +68,8 @@ fn parts(commands: &str) -> Vec<(String, Part)> {
     };
     let kinds = FileKind::NAMES.iter().copied();
     let mut parts: Vec<(String, Part)> = kinds.map(schema).collect();
+    let stubs = Part::Whole(python_calls::stubs());
+    parts.push(("python/contact_dma/_calls.pyi".to_owned(), stubs));
     let words = keys::words().into_iter();
     let words: String = words.map(|word| format!("\"{word}\"\n")).collect();
     let words = Part::Between(
@@ -94,7 +96,11 @@ fn parts(commands: &str) -> Vec<(String, Part)> {
         "shapes",
         names("indenter", &|word| word.to_owned()),
     );
-    marked("src/guide/python.md", "shapes", names("indenter", &class));
+    marked(
+        "src/guide/python.md",
+        "shapes",
+        names("indenter", &python_calls::class),
+    );
     marked(
         "src/guide/input_files.md",
         "keys",
@@ -131,10 +137,4 @@ fn meanings(path: &str) -> String {
     let ways = key_reference::ways(path).into_iter();
     let rows = ways.map(|(word, means)| format!("| `{word}` | {means} |\n"));
     format!("| | |\n|---|---|\n{}", rows.collect::<String>())
-}
-
-/// The Python class of a shape: `FlatPunch` of `flat-punch`.
-fn class(shape: &str) -> String {
-    let capital = |word: &str| word[..1].to_uppercase() + &word[1..];
-    shape.split('-').map(capital).collect()
 }

@@ -4,48 +4,162 @@ from numpy.typing import NDArray
 from _typeshed import SupportsGetItem
 from os import PathLike
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
+from typing_extensions import disjoint_base
 
-__all__ = ["VERSION", "Body", "History", "Shape", "Sweep", "analyse", "identify_material", "library_materials", "placed", "quantity", "read_sweep", "restore_analysis", "restore_history", "restore_sweep", "simulate", "sweep", "write_files"]
+__all__ = ["VERSION", "Body", "Cycle", "Field", "History", "Loops", "MeasuredCycle", "Peak", "PressureLine", "PressureProfile", "Shape", "Status", "SurfaceLine", "SurfaceProfile", "Sweep", "Warning", "calls", "identify_material", "library_materials", "placed", "quantity", "write_files"]
 
 VERSION: Final[str]
 
-@final
+@disjoint_base
 class Body:
     """
     A material that was read from its block of a sweep file.
     """
-    def __new__(cls, /, name: str, text: str) -> Body: ...
-    @property
-    def bulk_modulus_pa(self, /) -> float | None:
-        """
-        The bulk modulus (Pa), where it is constant in time in place of the Poisson ratio.
-        """
-    def complex_modulus(self, /, angular_frequency: NDArray[float64], modulus: str) -> "NDArray[complex128]": ...
-    def creep_compliance(self, /, time: NDArray[float64], modulus: str) -> NDArray[float64]: ...
-    def fit(self, /) -> tuple[list[str], list[str], list[str], list[tuple[str, bytes]]] | None:
+    def __new__(cls, /, name: str, text: str, tables: SupportsGetItem[int, tuple[str, str]] = ...) -> Body: ...
+    def _complex_modulus(self, /, angular_frequency: NDArray[float64], modulus: str) -> "NDArray[complex128]": ...
+    def _creep_compliance(self, /, time: NDArray[float64], modulus: str) -> NDArray[float64]: ...
+    def _fitted(self, /) -> tuple[list[str], list[str], list[str], list[tuple[str, bytes]]] | None:
         """
         How the series was fitted; `None` of a material that was not fitted to data.
         """
     @property
-    def is_series(self, /) -> bool:
+    def _is_series(self, /) -> bool:
         """
         Whether it is a series, which sweeps take, and not samples as they are.
         """
+    def _prony(self, /) -> tuple[float, NDArray[float64], NDArray[float64]]: ...
+    def _relaxation_modulus(self, /, time: NDArray[float64], modulus: str) -> NDArray[float64]: ...
     @property
-    def name(self, /) -> str | None: ...
+    def bulk_modulus(self, /) -> float | None:
+        """
+        Bulk modulus (Pa), where it is constant in time in place of the Poisson ratio.
+        """
+    @property
+    def name(self, /) -> str | None:
+        """
+        Its name, where it has one.
+        """
     @property
     def poisson_ratio(self, /) -> float | None:
         """
-        The Poisson ratio, where it is constant in time.
+        Poisson ratio, where it is constant in time.
         """
-    def prony(self, /, modulus: str) -> tuple[float, NDArray[float64], NDArray[float64]]: ...
-    def relaxation_modulus(self, /, time: NDArray[float64], modulus: str) -> NDArray[float64]: ...
     @property
-    def temperature_k(self, /) -> float | None: ...
+    def temperature(self, /) -> float | None:
+        """
+        The temperature (K) that it is for, where the data know temperatures.
+        """
     @property
     def text(self, /) -> str:
         """
-        A block of a sweep file that gives the same material again.
+        The material as a ``[material]`` block of a sweep file that gives the same material again, bit for bit.
+        """
+
+@final
+class Cycle:
+    """
+    The stabilised cycle of a case, sample by sample; arrays of length 0 where the case has no result.
+    """
+    __dataclass_fields__: Final[Any]
+    """
+    As of a dataclass, whose functions then take it.
+    """
+    __match_args__: Final[tuple[str, ...]]
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __new__(cls, /, angular_frequency: SupportsFloat | SupportsIndex, time: NDArray[float64], load: NDArray[float64], approach: NDArray[float64], contact_radius: NDArray[float64], peak_pressure: NDArray[float64], profiles: tuple[PressureProfile, ...]) -> Cycle: ...
+    def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]": ...
+    def __repr__(self, /) -> Any: ...
+    @property
+    def angular_frequency(self, /) -> float:
+        """
+        rad/s.
+        """
+    @property
+    def approach(self, /) -> NDArray[float64]:
+        """
+        m, shape (samples,).
+        """
+    @property
+    def contact_radius(self, /) -> NDArray[float64]:
+        """
+        m, shape (samples,).
+        """
+    @property
+    def load(self, /) -> NDArray[float64]:
+        """
+        N, shape (samples,).
+        """
+    @property
+    def peak_pressure(self, /) -> NDArray[float64]:
+        """
+        Pa, shape (samples,); NaN where it is unbounded.
+        """
+    @property
+    def profiles(self, /) -> tuple[PressureProfile, ...]:
+        """
+        The pressure over the contact at the quarters of the oscillation.
+        """
+    @property
+    def time(self, /) -> NDArray[float64]:
+        """
+        Since the cycle began (s), shape (samples,).
+        """
+
+@final
+class Field:
+    """
+    Fields at a requested time, arrays of shape (cells along y, cells along x) that share the memory of the result.
+    """
+    __dataclass_fields__: Final[Any]
+    """
+    As of a dataclass, whose functions then take it.
+    """
+    __match_args__: Final[tuple[str, ...]]
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __new__(cls, /, *values: "Any") -> Field: ...
+    def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]": ...
+    def __repr__(self, /) -> Any: ...
+    @property
+    def approach(self, /) -> float:
+        """
+        m; NaN where the indenter is clear of the surface.
+        """
+    @property
+    def contact_radius(self, /) -> float:
+        """
+        m.
+        """
+    @property
+    def displacement(self, /) -> NDArray[float64]:
+        """
+        m, positive into the body.
+        """
+    @property
+    def gap(self, /) -> NDArray[float64] | None:
+        """
+        m, infinite where there is no indenter; None where its place is unknown.
+        """
+    @property
+    def load(self, /) -> float:
+        """
+        N.
+        """
+    @property
+    def pressure(self, /) -> NDArray[float64]:
+        """
+        Pa.
+        """
+    @property
+    def spacing(self, /) -> tuple[float, float]:
+        """
+        Of the cells along x and y (m).
+        """
+    @property
+    def time(self, /) -> float:
+        """
+        s.
         """
 
 @final
@@ -53,42 +167,224 @@ class History:
     """
     A history and what it came to.
     """
+    def __new__(cls, /, origin: "object", threads: SupportsIndex | None = None, progress: Any | None = None) -> History: ...
     def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]": ...
     def columns(self, /) -> list[tuple[str, Any]]: ...
-    def cycles(self, /) -> list[tuple[str, Any]]:
-        """
-        The cycles of sine segments, one row each.
-        """
+    def cycles(self, /) -> list[tuple[str, Any]]: ...
     @property
     def errors_missing(self, /) -> str | None: ...
     @property
-    def failure(self, /) -> str | None:
+    def failure(self, /) -> str | None: ...
+    @property
+    def fields(self, /) -> tuple[Field, ...]:
         """
-        Why the history ended before its time.
-        """
-    def field(self, /, index: SupportsIndex) -> tuple[tuple[float, float, float, float], tuple[float, float], NDArray[float64], NDArray[float64], NDArray[float64] | None]:
-        """
-        A field of this result, whose arrays are not copied.
+        Nothing is copied.
         """
     @property
-    def field_count(self, /) -> int: ...
-    def profile(self, /, index: SupportsIndex) -> tuple[tuple[float, float, float, float], list[tuple[str, tuple[NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64]]]]]: ...
+    def profiles(self, /) -> tuple[SurfaceProfile, ...]: ...
     @property
-    def profile_count(self, /) -> int: ...
-    @property
-    def resolved(self, /) -> str:
-        """
-        The scenario as the text of its file, every default filled in.
-        """
-    def save(self, /, folder: str | PathLike[str], force: bool) -> None:
-        """
-        Writes what the program writes, but for figures and page.
-        """
+    def resolved(self, /) -> str: ...
+    def save(self, /, folder: str | PathLike[str], overwrite: bool) -> None: ...
     @property
     def title(self, /) -> str: ...
-    def warnings(self, /) -> list[tuple[str, str]]:
+    @property
+    def warnings(self, /) -> tuple[Warning, ...]: ...
+
+@disjoint_base
+class Loops:
+    """
+    What measured loops say.
+    """
+    def __new__(cls, /, origin: "object", frequency_hz: SupportsFloat | SupportsIndex | None = None, setup: tuple[str, str | None] = ..., threads: SupportsIndex | None = None) -> Loops:
         """
-        What lies outside the model: code and sentence.
+        Of records, of which a frequency (Hz) and a setup, by name and text, may be known; or of the bytes of an ``analysis.json``.
+        """
+    def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]": ...
+    def _all_columns(self, /) -> list[tuple[str, Any]]: ...
+    def _files(self, /) -> list[tuple[str, bytes]]: ...
+    @property
+    def cycles(self, /) -> tuple[MeasuredCycle, ...]:
+        """
+        The mean cycle of every record.
+        """
+    @property
+    def findings(self, /) -> tuple[tuple[Warning, ...], ...]:
+        """
+        For every record, what is to be known of it.
+        """
+    @property
+    def status(self, /) -> tuple[Status, ...]:
+        """
+        How every record ended, and why it has no result.
+        """
+
+@final
+class MeasuredCycle:
+    """
+    The mean cycle of a record, corrected, as uniform samples; arrays of length 0 where there is none.
+    """
+    __dataclass_fields__: Final[Any]
+    """
+    As of a dataclass, whose functions then take it.
+    """
+    __match_args__: Final[tuple[str, ...]]
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __new__(cls, /, time: NDArray[float64], load: NDArray[float64], approach: NDArray[float64]) -> MeasuredCycle: ...
+    def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]": ...
+    def __repr__(self, /) -> Any: ...
+    @property
+    def approach(self, /) -> NDArray[float64]:
+        """
+        m, shape (samples,).
+        """
+    @property
+    def load(self, /) -> NDArray[float64]:
+        """
+        N, shape (samples,).
+        """
+    @property
+    def time(self, /) -> NDArray[float64]:
+        """
+        s, shape (samples,).
+        """
+
+@final
+class Peak:
+    """
+    A local maximum of the energy loss over frequency, located to a thousandth of its frequency.
+    """
+    __dataclass_fields__: Final[Any]
+    """
+    As of a dataclass, whose functions then take it.
+    """
+    __match_args__: Final[tuple[str, ...]]
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __new__(cls, /, *values: "Any") -> Peak: ...
+    def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]": ...
+    def __repr__(self, /) -> Any: ...
+    @property
+    def angular_frequency(self, /) -> float:
+        """
+        Its angular frequency (rad/s).
+        """
+    @property
+    def angular_frequency_uncertainty(self, /) -> float:
+        """
+        Numerical uncertainty of the frequency (rad/s).
+        """
+    @property
+    def drive_amplitude(self, /) -> float | None:
+        """
+        Amplitude of the drive (N, Pa or m), where there are several.
+        """
+    @property
+    def drive_mean(self, /) -> float | None:
+        """
+        Mean of the drive (N, Pa or m by its control), where there are several.
+        """
+    @property
+    def energy_loss(self, /) -> float:
+        """
+        The loss per cycle there (J).
+        """
+    @property
+    def energy_loss_error(self, /) -> float | None:
+        """
+        Numerical error of the loss (J); None without error bars.
+        """
+    @property
+    def frequency(self, /) -> float:
+        """
+        Its frequency (Hz).
+        """
+    @property
+    def varied(self, /) -> tuple[float | str, ...]:
+        """
+        SI values of the axes besides the frequency, names of materials or indenters, empty where there are none.
+        """
+    @property
+    def varied_columns(self, /) -> tuple[str, ...]:
+        """
+        The column of the result that each value of `varied` belongs to.
+        """
+
+@final
+class PressureLine:
+    """
+    The contact pressure along a line through the origin.
+    """
+    __dataclass_fields__: Final[Any]
+    """
+    As of a dataclass, whose functions then take it.
+    """
+    __match_args__: Final[tuple[str, ...]]
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __new__(cls, /, along: str, position: NDArray[float64], pressure: NDArray[float64]) -> PressureLine: ...
+    def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]": ...
+    def __repr__(self, /) -> Any: ...
+    @property
+    def along(self, /) -> str:
+        """
+        ``"r"``, ``"x"`` or ``"y"``.
+        """
+    @property
+    def position(self, /) -> NDArray[float64]:
+        """
+        Positions (m), shape (n,).
+        """
+    @property
+    def pressure(self, /) -> NDArray[float64]:
+        """
+        Pressures (Pa), shape (n,); NaN where it is unbounded.
+        """
+
+@final
+class PressureProfile:
+    """
+    The contact pressure at a quarter of the oscillation.
+    """
+    __dataclass_fields__: Final[Any]
+    """
+    As of a dataclass, whose functions then take it.
+    """
+    __match_args__: Final[tuple[str, ...]]
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __new__(cls, /, instant: str, time: SupportsFloat | SupportsIndex, load: SupportsFloat | SupportsIndex, approach: SupportsFloat | SupportsIndex, contact_radius: SupportsFloat | SupportsIndex, lines: tuple[PressureLine, ...]) -> PressureProfile: ...
+    def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]": ...
+    def __repr__(self, /) -> Any: ...
+    @property
+    def approach(self, /) -> float:
+        """
+        Approach (m).
+        """
+    @property
+    def contact_radius(self, /) -> float:
+        """
+        Contact radius (m).
+        """
+    @property
+    def instant(self, /) -> str:
+        """
+        Such as ``"greatest load"``.
+        """
+    @property
+    def lines(self, /) -> tuple[PressureLine, ...]:
+        """
+        Along the radius, or along x and y.
+        """
+    @property
+    def load(self, /) -> float:
+        """
+        Load (N).
+        """
+    @property
+    def time(self, /) -> float:
+        """
+        Since the cycle began (s).
         """
 
 @final
@@ -127,49 +423,212 @@ class Shape:
         """
 
 @final
+class Status:
+    """
+    How a case ended.
+    """
+    __dataclass_fields__: Final[Any]
+    """
+    As of a dataclass, whose functions then take it.
+    """
+    __match_args__: Final[tuple[str, ...]]
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __new__(cls, /, name: str, reason: str | None = None) -> Status: ...
+    def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]": ...
+    def __repr__(self, /) -> Any: ...
+    def __str__(self, /) -> str: ...
+    @property
+    def converged(self, /) -> bool:
+        """
+        Whether there is a result.
+        """
+    @property
+    def name(self, /) -> str:
+        """
+        ``"converged"``, ``"transient"``, ``"not-converged"`` or ``"failed"``.
+        """
+    @property
+    def reason(self, /) -> str | None:
+        """
+        Why there is no result, or what else is to be known.
+        """
+
+@final
+class SurfaceLine:
+    """
+    The deformed surface along a line through the origin, arrays of shape (n,).
+    """
+    __dataclass_fields__: Final[Any]
+    """
+    As of a dataclass, whose functions then take it.
+    """
+    __match_args__: Final[tuple[str, ...]]
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __new__(cls, /, along: str, position: NDArray[float64], pressure: NDArray[float64], displacement: NDArray[float64], gap: NDArray[float64]) -> SurfaceLine: ...
+    def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]": ...
+    def __repr__(self, /) -> Any: ...
+    @property
+    def along(self, /) -> str:
+        """
+        ``"r"``, ``"x"`` or ``"y"``.
+        """
+    @property
+    def displacement(self, /) -> NDArray[float64]:
+        """
+        m, positive into the body.
+        """
+    @property
+    def gap(self, /) -> NDArray[float64]:
+        """
+        m; NaN where there is no indenter.
+        """
+    @property
+    def position(self, /) -> NDArray[float64]:
+        """
+        m.
+        """
+    @property
+    def pressure(self, /) -> NDArray[float64]:
+        """
+        Pa; NaN where it is unbounded.
+        """
+
+@final
+class SurfaceProfile:
+    """
+    The surface along lines at a requested time.
+    """
+    __dataclass_fields__: Final[Any]
+    """
+    As of a dataclass, whose functions then take it.
+    """
+    __match_args__: Final[tuple[str, ...]]
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __new__(cls, /, time: SupportsFloat | SupportsIndex, load: SupportsFloat | SupportsIndex, approach: SupportsFloat | SupportsIndex, contact_radius: SupportsFloat | SupportsIndex, lines: tuple[SurfaceLine, ...]) -> SurfaceProfile: ...
+    def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]": ...
+    def __repr__(self, /) -> Any: ...
+    @property
+    def approach(self, /) -> float:
+        """
+        m; NaN where the indenter is clear of the surface.
+        """
+    @property
+    def contact_radius(self, /) -> float:
+        """
+        m.
+        """
+    @property
+    def lines(self, /) -> tuple[SurfaceLine, ...]:
+        """
+        Along the radius, or along x and y.
+        """
+    @property
+    def load(self, /) -> float:
+        """
+        N.
+        """
+    @property
+    def time(self, /) -> float:
+        """
+        s.
+        """
+
+@disjoint_base
 class Sweep:
     """
     A sweep and what it came to.
     """
-    def __len__(self, /) -> int: ...
+    def __new__(cls, /, origin: "object", threads: SupportsIndex | None = None, progress: Any | None = None) -> Sweep: ...
     def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]": ...
-    def columns(self, /) -> list[tuple[str, Any]]: ...
+    def _all_columns(self, /) -> list[tuple[str, Any]]: ...
+    def _axes(self, /) -> tuple[str, ...]:
+        """
+        The columns of the axes besides the frequency.
+        """
     @property
-    def control(self, /) -> str: ...
-    def cycle(self, /, index: SupportsIndex) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64]] | None: ...
+    def _cases(self, /) -> int: ...
+    def _cycle(self, /, index: SupportsIndex) -> Cycle: ...
+    def _summary(self, /) -> bytes: ...
     @property
-    def notes(self, /) -> list[str]: ...
+    def notes(self, /) -> tuple[str, ...]:
+        """
+        What was met on the way, such as a damaged record.
+        """
     @property
-    def peak_problems(self, /) -> list[str]: ...
-    def peaks(self, /) -> list[tuple[float, float, float, float | None, list[float | str], float | None, float | None]]: ...
-    def profiles(self, /, index: SupportsIndex) -> list[tuple[str, tuple[float, float, float, float], list[tuple[str, NDArray[float64], NDArray[float64]]]]]: ...
+    def peak_problems(self, /) -> tuple[str, ...]:
+        """
+        Peaks that could not be located, with the reason.
+        """
+    @property
+    def peaks(self, /) -> tuple[Peak, ...]:
+        """
+        Local maxima of the loss over frequency, largest first.
+        """
     @property
     def resolved(self, /) -> str:
         """
         The sweep as the text of a sweep file, every default filled in.
         """
-    def save(self, /, folder: str | PathLike[str], force: bool) -> None:
+    def save(self, /, folder: str | PathLike[str], *, overwrite: bool = False) -> None:
         """
-        Writes what the program writes, but for figures and page.
-        """
-    def status(self, /) -> list[tuple[str, str | None]]:
-        """
-        How every case ended, and why it has no result or what else is to be known of it.
-        """
-    def summary(self, /) -> bytes:
-        """
-        What is written to summary.json.
+        Writes what ``contact-dma sweep`` writes: records, ``sweep.csv``, loops, pressures, work, ``cycles.npz``, ``summary.json``,
+        ``resolved.toml``, ``run.json``; a map of an array as ``height-map.npy``.
+
+        Figures and page are drawn from these by ``contact-dma report FOLDER``, and `read` reads them again.
+
+        Args:
+            folder: is made where it is not there.
+            overwrite: whether another sweep's results there are replaced.
         """
     @property
-    def title(self, /) -> str: ...
-    def warnings(self, /) -> list[list[tuple[str, str]]]:
+    def status(self, /) -> tuple[Status, ...]:
         """
-        The warnings of every case: code and sentence.
+        How every case ended, and why it has no result.
+        """
+    @property
+    def title(self, /) -> str:
+        """
+        Its title.
+        """
+    @property
+    def warnings(self, /) -> tuple[tuple[Warning, ...], ...]:
+        """
+        For every case, what lies outside the model or was not estimated.
         """
 
-def analyse(records: SupportsGetItem[int, Any], frequency_hz: SupportsFloat | SupportsIndex | None, setup: tuple[str, str | None], threads: SupportsIndex | None) -> tuple[list[tuple[str, Any]], list[tuple[NDArray[float64], NDArray[float64], NDArray[float64]] | None], list[tuple[str, str | None]], list[list[tuple[str, str]]], list[tuple[str, bytes]]]:
+@final
+class Warning:
     """
-    What measured loops say. The text is that of a setup.
+    What lies outside the model, or was not estimated.
+    """
+    __dataclass_fields__: Final[Any]
+    """
+    As of a dataclass, whose functions then take it.
+    """
+    __match_args__: Final[tuple[str, ...]]
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self, /) -> int: ...
+    def __new__(cls, /, code: str, message: str) -> Warning: ...
+    def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]": ...
+    def __repr__(self, /) -> Any: ...
+    @property
+    def code(self, /) -> str:
+        """
+        The program's code of it.
+        """
+    @property
+    def message(self, /) -> str:
+        """
+        A sentence.
+        """
+
+def calls() -> list[tuple[str, str, str, int, list[tuple[str, str, str, str | None, str]]]]:
+    """
+    What takes keys of the input files as its arguments: the class that it belongs to, or "", name, meaning, arguments by place,
+    arguments.
     """
 
 def identify_material(source: "object", threads: SupportsIndex | None) -> tuple[str, list[str], list[tuple[str, bytes]]]:
@@ -191,36 +650,6 @@ def placed(text: str, block: str, place: str, name: str | None) -> str:
 def quantity(text: str, si_unit: str) -> float:
     """
     A number with its unit, in the SI unit of the quantity that is expected. Frequencies in Hz and in rad/s are read as one another.
-    """
-
-def read_sweep(folder: str | PathLike[str]) -> Sweep:
-    """
-    The result in a folder of the program.
-    """
-
-def restore_analysis(everything: bytes) -> tuple[list[tuple[str, Any]], list[tuple[NDArray[float64], NDArray[float64], NDArray[float64]] | None], list[tuple[str, str | None]], list[list[tuple[str, str]]], list[tuple[str, bytes]]]:
-    """
-    The analysis that the program has kept in `analysis.json`.
-    """
-
-def restore_history(build: str, resolved: str, shape: Shape | None, packed: bytes) -> History:
-    """
-    The history that [`History::__reduce__`] has packed.
-    """
-
-def restore_sweep(build: str, resolved: str, shape: Shape | None, records: bytes, threads: SupportsIndex) -> Sweep:
-    """
-    A result of the records that [`Sweep::__reduce__`] has packed.
-    """
-
-def simulate(source: "object", threads: SupportsIndex | None, progress: Any | None) -> History:
-    """
-    Follows a drive history.
-    """
-
-def sweep(source: "object", threads: SupportsIndex | None, progress: Any | None) -> Sweep:
-    """
-    Solves every case of a sweep and locates the peaks.
     """
 
 def write_files(folder: str | PathLike[str], kind: str, files: SupportsGetItem[int, tuple[str, SupportsGetItem[int, SupportsIndex]]], force: bool) -> None:

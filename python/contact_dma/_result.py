@@ -8,11 +8,14 @@ import os
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import is_dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
+
+from ._contact_dma import Status as Status
+from ._contact_dma import Warning as Warning
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -21,35 +24,6 @@ Floats: TypeAlias = npt.NDArray[np.float64]
 
 Progress = Callable[[int, int], object]
 """Called with what is done and how much there is in all."""
-
-
-@dataclass(frozen=True)
-class Status:
-    """How a case ended.
-
-    Attributes:
-        name: ``"converged"``, ``"transient"``, ``"not-converged"`` or ``"failed"``.
-        reason: why there is no result, or what else is to be known.
-    """
-
-    name: str
-    reason: str | None = None
-
-    @property
-    def converged(self) -> bool:
-        """Whether there is a result."""
-        return self.name in ("converged", "transient")
-
-    def __str__(self) -> str:
-        return f"{self.name}: {self.reason}" if self.reason else self.name
-
-
-@dataclass(frozen=True)
-class Warning:
-    """What lies outside the model, or was not estimated: the program's code of it, and a sentence."""
-
-    code: str
-    message: str
 
 
 class ContactDmaWarning(UserWarning):
@@ -74,20 +48,9 @@ def failures(statuses: Sequence[Status], noun: str) -> str | None:
     return f"{len(failed)} of {len(statuses)} {noun}s have no result, and are NaN: {'; '.join(failed[:3])}{more}"
 
 
-class Record:
-    """Values and arrays under names: compared bit for bit, and shown without the numbers of the arrays."""
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Record) or type(other) is not type(self):
-            return NotImplemented
-        pairs = ((getattr(self, f.name), getattr(other, f.name)) for f in fields(self))  # type: ignore[arg-type]
-        return all(_same(a, b) for a, b in pairs)
-
-    __hash__ = None  # type: ignore[assignment]
-
-    def __repr__(self) -> str:
-        values = ((f.name, getattr(self, f.name)) for f in fields(self))  # type: ignore[arg-type]
-        return f"{type(self).__name__}({', '.join(f'{name}={_brief(value)}' for name, value in values)})"
+def same(one: Sequence[Any], other: Sequence[Any]) -> bool:
+    """Whether values are the same bit for bit, arrays and their NaN too."""
+    return len(one) == len(other) and all(_same(a, b) for a, b in zip(one, other))
 
 
 def _same(a: Any, b: Any) -> bool:
@@ -96,10 +59,16 @@ def _same(a: Any, b: Any) -> bool:
     return bool(a == b) or (isinstance(a, float) and isinstance(b, float) and math.isnan(a) and math.isnan(b))
 
 
+def brief(record: Any) -> str:
+    """A record as it was made, without the numbers of its arrays."""
+    values = (f"{name}={_brief(getattr(record, name))}" for name in record.__match_args__)
+    return f"{type(record).__name__}({', '.join(values)})"
+
+
 def _brief(value: Any) -> str:
     if isinstance(value, np.ndarray):
         return f"<{' x '.join(map(str, value.shape))} numbers>"
-    if isinstance(value, tuple) and any(isinstance(each, Record) for each in value):
+    if isinstance(value, tuple) and value and is_dataclass(value[0]):
         return f"<{len(value)}>"
     return repr(value)
 
@@ -135,8 +104,7 @@ class Table(Mapping[str, npt.NDArray[Any]]):
         """Whether all columns are the same, bit for bit."""
         if type(other) is not type(self) or not isinstance(other, Table):
             return NotImplemented
-        same = (_same(self[name], other[name]) for name in self)
-        return list(self) == list(other) and all(same)
+        return list(self) == list(other) and same(list(self.values()), list(other.values()))
 
     __hash__ = None  # type: ignore[assignment]
 

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _contact_dma as _core
+from ._contact_dma import Field, SurfaceLine, SurfaceProfile, Warning
 from ._result import Floats, arrays
 
 Instant = tuple[float, float, float, float]
@@ -71,29 +72,27 @@ class StoredHistory:
         why: str | None = self._summary["errors_missing"]
         return why
 
-    def warnings(self) -> list[tuple[str, str]]:
-        return [(warning["code"], warning["message"]) for warning in self._summary["warnings"]]
+    @property
+    def warnings(self) -> tuple[Warning, ...]:
+        return tuple(Warning(warning["code"], warning["message"]) for warning in self._summary["warnings"])
 
     @property
-    def profile_count(self) -> int:
-        return len(self._profiles["index"])
+    def profiles(self) -> tuple[SurfaceProfile, ...]:
+        return tuple(self._profile(k) for k in range(len(self._profiles["index"])))
 
-    @property
-    def field_count(self) -> int:
-        return len(self._fields["index"])
-
-    def profile(self, index: int) -> tuple[Instant, list[tuple[str, tuple[Floats, Floats, Floats, Floats]]]]:
+    def _profile(self, index: int) -> SurfaceProfile:
         read = self._read(f"profiles/{index}.csv")
         along = read.get("line", np.full(len(read["pressure_pa"]), "r"))
         place = "radius_m" if "radius_m" in read else "position_m"
         names = (place, "pressure_pa", "displacement_m", "gap_m")
-        lines = []
-        for name in dict.fromkeys(along.tolist()):
-            a, b, c, d = (read[column][along == name] for column in names)
-            lines.append((str(name), (a, b, c, d)))
-        return _instant(self._profiles, index), lines
+        lines = (SurfaceLine(str(name), *(read[column][along == name] for column in names)) for name in dict.fromkeys(along.tolist()))
+        return SurfaceProfile(*_instant(self._profiles, index), tuple(lines))
 
-    def field(self, index: int) -> tuple[Instant, tuple[float, float], Floats, Floats, Floats | None]:
+    @property
+    def fields(self) -> tuple[Field, ...]:
+        return tuple(self._field(k) for k in range(len(self._fields["index"])))
+
+    def _field(self, index: int) -> Field:
         def load(name: str) -> Floats:
             values: Floats = np.load(self._folder / f"fields/{index}-{name}.npy", mmap_mode="r")
             return values
@@ -101,7 +100,7 @@ class StoredHistory:
         has_gap = (self._folder / f"fields/{index}-gap_m.npy").is_file()
         spacing = (float(self._fields["spacing_x_m"][index]), float(self._fields["spacing_y_m"][index]))
         gap = load("gap_m") if has_gap else None
-        return _instant(self._fields, index), spacing, load("pressure_pa"), load("displacement_m"), gap
+        return Field(*_instant(self._fields, index), spacing, load("pressure_pa"), load("displacement_m"), gap)
 
     def save(self, folder: str, force: bool) -> None:
         existing = Path(folder) / "resolved.toml"

@@ -151,6 +151,22 @@ def table(header: str, entries: Mapping[str, Any], *, even_empty: bool = False) 
     return f"[{header}]\n" + "".join(lines) + "\n" if lines or even_empty else ""
 
 
+def document(tables: Mapping[str, Mapping[str, Any]]) -> str:
+    """A file of these tables, "" for what stands before all; those that have no keys stay."""
+    depths = sorted(tables, key=lambda header: header.count("."))
+    lines = [f"{key(name)} = {_named(name, item)}\n\n" for name, item in tables.get("", {}).items()]
+    return "".join(lines + [table(header, tables[header], even_empty=True) for header in depths if header])
+
+
+def tables(keys: Mapping[str, Any], *headers: str) -> dict[str, dict[str, Any]]:
+    """Dotted keys in the tables that they stand in, beside tables of these headers."""
+    made: dict[str, dict[str, Any]] = {header: {} for header in headers}
+    for name, item in keys.items():
+        header, _, last = name.rpartition(".")
+        made.setdefault(header, {})[last] = item
+    return made
+
+
 def _named(name: str, item: Any) -> str:
     """A value as TOML; what is none is refused by its name."""
     try:

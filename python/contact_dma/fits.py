@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import csv
 import html
+import io
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from . import _toml
-from ._result import Columns, Floats, Record, warn
+from ._result import Columns, Floats, warn
 from ._stored import table as stored_table
 
 _COLD_K = 120.0
@@ -32,8 +32,8 @@ def warn_of_celsius(call: str, **temperatures: Any) -> None:
                 warn(f"{call}: {name} is {lowest:g} to {highest:g} K: numbers are in kelvin; degrees Celsius are strings, '{lowest:g} °C'")
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class MaterialFit(Record):
+@dataclass(frozen=True, repr=False)
+class MaterialFit:
     """How a series was fitted to data.
 
     Attributes:
@@ -64,6 +64,8 @@ class MaterialFit(Record):
         misfit = max(float(summary[name]) for name in rms if name in summary)
         columns = [Columns(stored_table(contents[name].decode())) if name in contents else None for name in ("shift.csv", "master.csv")]
         return cls(misfit, tuple(notes), tuple(warnings), tuple(report), summary, *columns)
+
+    __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
         return f"<MaterialFit: misfit {100 * self.misfit:.2g} %, {len(self.warnings)} warnings, {len(self.notes)} notes>"
@@ -120,12 +122,12 @@ def _refuse_lengths(columns: Mapping[str, Floats]) -> None:
         raise ValueError(f"columns must have as many rows as one another: {counts}")
 
 
-def write_columns(path: Path, columns: Mapping[str, Any]) -> None:
-    """Columns as a CSV file: numbers without losing a bit, those of names with an SI unit in it, cells empty where one is NaN."""
+def table_text(columns: Mapping[str, Any]) -> str:
+    """Columns as the text of a table: numbers without losing a bit, those of names with an SI unit in it, cells empty where one is NaN."""
     arrays = {name: _toml.si(values, _toml.unit_of(name), name).reshape(-1) for name, values in columns.items()}
     _refuse_lengths(arrays)
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(arrays)
-        for row in zip(*(array.tolist() for array in arrays.values())):
-            writer.writerow(["" if cell != cell else repr(cell) for cell in row])
+    text = io.StringIO()
+    writer = csv.writer(text)
+    writer.writerow(arrays)
+    writer.writerows(["" if cell != cell else repr(cell) for cell in row] for row in zip(*(array.tolist() for array in arrays.values())))
+    return text.getvalue()

@@ -6,7 +6,6 @@ import errno
 import os
 from pathlib import Path
 
-from . import _contact_dma as _core
 from . import _toml
 from ._stored import StoredHistory
 from .histories import HistoryResult
@@ -43,7 +42,7 @@ def read(folder: str | os.PathLike[str]) -> SweepResult | HistoryResult | Analys
         raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), os.fspath(folder))
     analysis, block = path / "analysis.json", path / "material.toml"
     if analysis.is_file() and not (path / "resolved.toml").exists():
-        return AnalysisResult(_core.restore_analysis(analysis.read_bytes()))
+        return AnalysisResult(analysis.read_bytes())
     if block.is_file() and (path / "fit.csv").is_file():
         names = ["material.toml", "resolved.toml", "prony.csv", "fit.csv", "moduli.csv", "summary.json"]
         files = [(name, (path / name).read_bytes()) for name in names if (path / name).is_file()]
@@ -52,4 +51,4 @@ def read(folder: str | os.PathLike[str]) -> SweepResult | HistoryResult | Analys
         return IdentifiedMaterial(text, report, files)
     if (path / "history.csv").is_file():
         return HistoryResult(StoredHistory(path))
-    return SweepResult(_core.read_sweep(os.fspath(path)))
+    return SweepResult(path)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
+from . import _calls, _toml
 from . import _contact_dma as _core
-from . import _toml
 from ._result import Floats
 from .materials import Quantity, _mapped
 
@@ -29,6 +29,10 @@ class Indenter:
         self._call = f"{type(self).__name__}({', '.join(shown)})"
         self._text = _toml.table("indenter", {"shape": shape, **entries})
         self._core = _core.Shape(f"{type(self).__name__}(...)", self._text)
+
+    def _made_of(self, shape: str, keys: Mapping[str, Any]) -> None:
+        """As `_made`, of keys by their dotted names."""
+        self._made(shape, **{name.removeprefix("indenter."): entry for name, entry in keys.items()})
 
     def gap(self, x: npt.ArrayLike, y: npt.ArrayLike = 0.0) -> Any:
         """Gap (m) between the undeformed indenter and the half-space at points x, y (m), which broadcast; inf where it ends.
@@ -69,7 +73,7 @@ def _restored(cls: type[Indenter], text: str, call: str) -> Indenter:
     return indenter
 
 
-class Sphere(Indenter):
+class Sphere(_calls.Sphere, Indenter):
     """A sphere of this radius (m), as the paraboloid r^2 / (2 radius).
 
     Example:
@@ -79,11 +83,8 @@ class Sphere(Indenter):
 
     __slots__ = ()
 
-    def __init__(self, radius: Quantity, *, offset: tuple[Quantity, Quantity] | None = None) -> None:
-        self._made("sphere", radius=radius, offset=offset)
 
-
-class Cone(Indenter):
+class Cone(_calls.Cone, Indenter):
     """A cone of this angle (rad) between its axis and its side.
 
     Example:
@@ -93,11 +94,8 @@ class Cone(Indenter):
 
     __slots__ = ()
 
-    def __init__(self, half_angle: Quantity, *, offset: tuple[Quantity, Quantity] | None = None) -> None:
-        self._made("cone", half_angle=half_angle, offset=offset)
 
-
-class FlatPunch(Indenter):
+class FlatPunch(_calls.FlatPunch, Indenter):
     """A flat-ended cylinder of this radius (m).
 
     Example:
@@ -107,11 +105,8 @@ class FlatPunch(Indenter):
 
     __slots__ = ()
 
-    def __init__(self, radius: Quantity, *, offset: tuple[Quantity, Quantity] | None = None) -> None:
-        self._made("flat-punch", radius=radius, offset=offset)
 
-
-class Ellipsoid(Indenter):
+class Ellipsoid(_calls.Ellipsoid, Indenter):
     """An ellipsoid of these principal radii of curvature (m).
 
     Example:
@@ -121,13 +116,8 @@ class Ellipsoid(Indenter):
 
     __slots__ = ()
 
-    def __init__(
-        self, radius_x: Quantity, radius_y: Quantity, *, offset: tuple[Quantity, Quantity] | None = None
-    ) -> None:
-        self._made("ellipsoid", radius_x=radius_x, radius_y=radius_y, offset=offset)
 
-
-class PowerLaw(Indenter):
+class PowerLaw(_calls.PowerLaw, Indenter):
     """A body of revolution with gap = height (r / radius)^exponent; lengths in m.
 
     Example:
@@ -136,16 +126,6 @@ class PowerLaw(Indenter):
     """
 
     __slots__ = ()
-
-    def __init__(
-        self,
-        exponent: float,
-        *,
-        radius: Quantity,
-        height: Quantity,
-        offset: tuple[Quantity, Quantity] | None = None,
-    ) -> None:
-        self._made("power-law", exponent=exponent, radius=radius, height=height, offset=offset)
 
 
 class Profile(Indenter):
@@ -185,19 +165,8 @@ class Asperities(Indenter):
         self._call = f"Asperities of {len(rows)}"
 
 
-class Rough(Indenter):
+class Rough(_calls.Rough, Indenter):
     """A random self-affine surface, perhaps on a sphere.
-
-    Args:
-        cells: points along a side.
-        spacing: their distance (m).
-        hurst_exponent: Hurst exponent.
-        rms_height: root mean square of the heights (m).
-        cut_off_wavelength: shortest wavelength (m).
-        roll_off_wavelength: longest wavelength of the self-affine part (m).
-        seed: of the random numbers.
-        sphere_radius: of the sphere that the roughness is on (m).
-        edge: ``"unknown"``, ``"rim"`` or ``"periodic"``, see `HeightMap`.
 
     Example:
         >>> rough = Rough(64, spacing="1 um", hurst_exponent=0.8, rms_height="50 nm",
@@ -207,32 +176,6 @@ class Rough(Indenter):
     """
 
     __slots__ = ()
-
-    def __init__(
-        self,
-        cells: int,
-        *,
-        spacing: Quantity,
-        hurst_exponent: float,
-        rms_height: Quantity,
-        cut_off_wavelength: Quantity,
-        seed: int,
-        roll_off_wavelength: Quantity | None = None,
-        sphere_radius: Quantity | None = None,
-        edge: Literal["unknown", "rim", "periodic"] | None = None,
-    ) -> None:
-        self._made(
-            "rough",
-            cells=cells,
-            spacing=spacing,
-            hurst_exponent=hurst_exponent,
-            rms_height=rms_height,
-            roll_off_wavelength=roll_off_wavelength,
-            cut_off_wavelength=cut_off_wavelength,
-            seed=seed,
-            sphere_radius=sphere_radius,
-            edge=edge,
-        )
 
 
 class HeightMap(Indenter):

@@ -5,20 +5,20 @@ from __future__ import annotations
 import html
 import json
 import os
-import tempfile
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, TypeAlias, Union
+from typing import Any, TypeAlias, Union
 
 import numpy as np
 
+from . import _calls, _toml
 from . import _contact_dma as _core
-from . import _toml
-from ._result import Columns, Floats, Record as ValueRecord, Status, Table, Warning, arrays, failures, svg, warn
-from ._sources import CYCLE_KEYS, DRIVE_KEYS, Source, bodies, chosen, one_each, refuse, solver, thread_count, warn_without_effect
+from ._calls import identify as identify
+from ._contact_dma import MeasuredCycle as MeasuredCycle
+from ._result import Columns, Table, arrays, failures, svg, warn
+from ._sources import Source, source_of_values, thread_count, warn_without_effect
 from ._stored import table
-from .fits import write_columns
+from .fits import table_text
 from .indenters import Indenter
 from .materials import Material, Prony, Quantity
 
@@ -27,22 +27,7 @@ Record: TypeAlias = Union[str, "os.PathLike[str]", _toml.TableLike]
 dictionary or data frame; ``time_s``, ``load_n`` and ``approach_m`` are the same."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class MeasuredCycle(ValueRecord):
-    """The mean cycle of a record, corrected, as uniform samples; arrays of length 0 where there is none.
-
-    Attributes:
-        time: s, shape (samples,).
-        load: N, shape (samples,).
-        approach: m, shape (samples,).
-    """
-
-    time: Floats
-    load: Floats
-    approach: Floats
-
-
-class AnalysisResult(Table):
+class AnalysisResult(Table, _core.Loops):
     """What measured loops say: the columns of a sweep, one row a record by ascending frequency, with their errors.
 
     Example:
@@ -55,16 +40,8 @@ class AnalysisResult(Table):
         0.1
     """
 
-    def __init__(self, analysed: Any) -> None:
-        columns, cycles, statuses, findings, files = analysed
-        self._columns = arrays(columns)
-        self._cycles, self._statuses, self._findings = cycles, statuses, findings
-        self._files: list[tuple[str, bytes]] = files
-
-    @property
-    def status(self) -> tuple[Status, ...]:
-        """How every record ended, and why it has no result."""
-        return tuple(Status(*each) for each in self._statuses)
+    def __init__(self, *_: Any) -> None:
+        self._columns = arrays(self._all_columns())
 
     def raise_for_status(self) -> None:
         """Raises RuntimeError where a record has no result, with the reasons of the first."""
@@ -73,20 +50,9 @@ class AnalysisResult(Table):
             raise RuntimeError(message)
 
     @property
-    def findings(self) -> tuple[tuple[Warning, ...], ...]:
-        """For every record, what is to be known of it."""
-        return tuple(tuple(Warning(*each) for each in of_record) for of_record in self._findings)
-
-    @property
-    def cycles(self) -> tuple[MeasuredCycle, ...]:
-        """The mean cycle of every record."""
-        none = np.empty(0)
-        return tuple(MeasuredCycle(*(samples or (none, none, none))) for samples in self._cycles)
-
-    @property
     def summary(self) -> dict[str, Any]:
         """What the program writes to ``summary.json``."""
-        summary: dict[str, Any] = json.loads(dict(self._files)["summary.json"])
+        summary: dict[str, Any] = json.loads(dict(self._files())["summary.json"])
         return summary
 
     def save(self, folder: str | os.PathLike[str], *, overwrite: bool = False) -> None:
@@ -96,7 +62,7 @@ class AnalysisResult(Table):
             folder: a new or empty folder, or one of an analysis.
             overwrite: whether another result there is replaced; files of others stay.
         """
-        _core.write_files(os.fspath(folder), "analysis", self._files, overwrite)
+        _core.write_files(os.fspath(folder), "analysis", self._files(), overwrite)
 
     def __repr__(self) -> str:
         done = sum(status.converged for status in self.status)
@@ -146,7 +112,7 @@ def analyse(
         raise ValueError("frequency is that of all records, one number: analyse records of other frequencies apart")
     hertz = None if frequency is None else float(_toml.si(frequency, "Hz", "frequency"))
     given = [_record(record, k) for k, record in enumerate(each)]
-    result = AnalysisResult(_core.analyse(given, hertz, _setup(setup), thread_count(threads)))
+    result = AnalysisResult(given, hertz, _setup(setup), thread_count(threads))
     message = failures(result.status, "record")
     if message is not None:
         warn(f"analyse: {message}")
@@ -246,52 +212,20 @@ class IdentifiedMaterial:
         return f"<pre>{html.escape(chr(10).join(self.report))}</pre>"
 
 
-def identify(
+@_calls.body("identify")
+def _identify(
+    keys: Mapping[str, Any],
     data: str | os.PathLike[str] | _toml.TableLike | None = None,
     indenter: Indenter | None = None,
     *,
     file: str | os.PathLike[str] | None = None,
     overrides: Mapping[str, Any] | None = None,
-    poisson_ratio: float | None = None,
-    bulk_modulus: Quantity | None = None,
-    mean: Quantity | None = None,
-    amplitude: Quantity | None = None,
-    control: Literal["load", "pressure", "approach"] = "load",
-    segments: Sequence[Mapping[str, Any]] | None = None,
-    indenter_material: Material | str | None = None,
-    layer: Mapping[str, Any] | None = None,
-    adhesion: Quantity | Mapping[str, Any] | None = None,
-    branches: int | Literal["auto"] | None = None,
-    approach_zero: Literal["first-contact", "unknown"] | None = None,
-    title: str | None = None,
     threads: int | None = None,
-    **options: Any,
+    **bodies: Any,
 ) -> IdentifiedMaterial:
     """Finds the solid, a Prony series, whose computed cycles, or whose computed history, have the measured numbers.
 
-    Args:
-        data: measured cycles, with columns of a sweep and their errors where they are known: ``angular_frequency_rad_per_s``,
-            ``energy_loss_j``, ``energy_loss_error_j``, ``phase_lag_rad``, ``approach_max_m``...: arrays of shape (n,) by name,
-            a data frame, a result of `analyse`, a CSV file, or a folder of ``contact-dma analyse``. NaN or None where nothing was
-            measured. Of a history ``time_s`` and ``approach_m``, or ``load_n`` under a prescribed approach.
-        indenter: that of the measurement.
-        file: an identification file in place of all these, with ``overrides``.
-        overrides: changes of the file.
-        poisson_ratio: of the material.
-        bulk_modulus: of the material (Pa), constant in time, in place of the Poisson ratio.
-        mean: mean load (N) or approach (m) of the measurement.
-        amplitude: its amplitude.
-        control: what the drive prescribes.
-        segments: of a measured history, as in `simulate`, in place of mean and amplitude.
-        indenter_material: what the indenter is made of, as a material or a name of the library; rigid where it is left out.
-        layer: where the body is one, as in `sweep`.
-        adhesion: where the indenter is attracted, as in `sweep`.
-        branches: how many branches; the data choose where it is left out.
-        approach_zero: what smallest and largest approaches are counted from: ``"first-contact"`` (default), or ``"unknown"``, where
-            they are not data.
-        title: of tables and figures.
-        threads: how many, as in `sweep`.
-        options: of the forward model, as in `sweep`: ``engine``, ``steps`` (64 by default), ``springs`` (64), ``cells`` (32)...
+    {arguments}
 
     Warns:
         ContactDmaWarning: of everything that the report warns of, such as a solid that misses the data.
@@ -319,24 +253,15 @@ def identify(
         raise ValueError("identify(data, indenter, ...) needs measured cycles and the indenter, or file=...")
     if overrides is not None:
         raise ValueError("overrides change a file; write options as arguments: branches=3 in place of {'identify.branches': 3}")
-    options.update(control=control, mean=mean, amplitude=amplitude)
-    options.update(indenter_material=indenter_material, layer=layer, adhesion=adhesion)
-    one_each(options)
-    given = dict(options)
-    drive, cycle, engine = chosen(options, DRIVE_KEYS), chosen(options, CYCLE_KEYS), solver(options)
-    drive["segments"] = segments
-    known = {"poisson_ratio": poisson_ratio, "bulk_modulus": bulk_modulus}
-    around = bodies(indenter, options, False)
-    refuse("identify", options)
-    with tempfile.TemporaryDirectory() as folder:
-        text = f"title = {_toml.value(title or 'Measured cycles')}\n\n"
-        text += _toml.table("identify", {"data": _data(data, Path(folder)), "branches": branches, "approach_zero": approach_zero})
-        text += _toml.table("material", known) or "[material]\n"
-        text += _toml.table("drive", drive)
-        text += _toml.table("cycle", cycle) + engine + around
-        source = Source("identify(...)", text, (), None, None if "[indenter]" in around else indenter._core)
-        found = _identified(source, threads)
-    warn_without_effect("identify", given, dict(found._files)["resolved.toml"].decode("utf-8"))
+    name, tables = "argument `data`", []
+    if _toml.is_table(data):
+        tables = [(name, table_text(_columns(data)))]
+    else:
+        name = _toml.path(data)  # type: ignore[arg-type]
+    keys = {"identify.data": name, **keys}
+    source = source_of_values("identify", keys, None, indenter, tables=tables, **bodies)
+    found = _identified(source, threads)
+    warn_without_effect("identify", keys, dict(found._files)["resolved.toml"].decode("utf-8"))
     return found
 
 
@@ -352,13 +277,9 @@ _TEXTS = ("file", "indenter", "material", "message", "status", "warnings")
 """Columns of results that hold text."""
 
 
-def _data(data: str | os.PathLike[str] | _toml.TableLike, folder: Path) -> str:
-    if not _toml.is_table(data):
-        return _toml.path(data)  # type: ignore[arg-type]
+def _columns(data: _toml.TableLike) -> dict[str, Any]:
     columns = {str(name): data[name] for name in data.keys() if str(name) not in _TEXTS}
     if isinstance(data, Table):
         # Of a result all that is text has no number in any row.
         columns = {name: values for name, values in columns.items() if np.asarray(values).dtype.kind in "iuf"}
-    path = folder / "measured.csv"
-    write_columns(path, columns)
-    return _toml.path(path)
+    return columns

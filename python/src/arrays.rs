@@ -7,13 +7,20 @@ use pyo3::prelude::*;
 use contact_dma::report::quantities::Named;
 use contact_dma::report::table::Cell;
 
+use crate::record::Line;
+
 /// Columns that hold text, be it that no row has any.
 const TEXTS: [&str; 2] = ["warnings", "message"];
 
 /// Absent values as NaN.
-pub fn numbers(values: impl IntoIterator<Item = Option<f64>>) -> Vec<f64> {
+fn numbers(values: impl IntoIterator<Item = Option<f64>>) -> Vec<f64> {
     let values = values.into_iter();
     values.map(|value| value.unwrap_or(f64::NAN)).collect()
+}
+
+/// The same as an array.
+pub fn nullable(py: Python<'_>, values: impl IntoIterator<Item = Option<f64>>) -> Line {
+    numbers(values).into_pyarray(py).unbind()
 }
 
 /// A list that its owner holds, as an array that cannot be written to; nothing is copied.

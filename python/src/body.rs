@@ -18,7 +18,7 @@ use crate::measured::{Files, bytes};
 use crate::{failure, wait};
 
 /// A material that was read from its block of a sweep file.
-#[pyclass(frozen, module = "contact_dma._contact_dma")]
+#[pyclass(frozen, subclass, module = "contact_dma._contact_dma")]
 pub struct Body {
     material: BodyMaterial,
     /// A block that gives the same material again.
@@ -36,10 +36,16 @@ type Prony<'py> = (f64, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 #[pymethods]
 impl Body {
     #[new]
-    fn new(py: Python<'_>, name: String, text: String) -> PyResult<Self> {
+    #[pyo3(signature = (name, text, tables = Vec::new()))]
+    fn new(
+        py: Python<'_>,
+        name: String,
+        text: String,
+        tables: Vec<(String, String)>,
+    ) -> PyResult<Self> {
         let block = text.clone();
         let read = wait::run_unheard(py, move |_| {
-            let document = Document::parse(&name, &block)?;
+            let document = Document::with_tables(&name, &block, tables)?;
             given::material_with_fit(&document)
         })?;
         let (material, dynamic) = read.map_err(|found| failure::of_input(&found))?;
@@ -55,7 +61,7 @@ impl Body {
         })
     }
 
-    /// A block of a sweep file that gives the same material again.
+    /// The material as a ``[material]`` block of a sweep file that gives the same material again, bit for bit.
     #[getter]
     fn text(&self) -> &str {
         &self.text
@@ -63,12 +69,12 @@ impl Body {
 
     /// Whether it is a series, which sweeps take, and not samples as they are.
     #[getter]
-    fn is_series(&self) -> bool {
+    fn _is_series(&self) -> bool {
         self.material.series().is_some()
     }
 
     /// How the series was fitted; `None` of a material that was not fitted to data.
-    fn fit<'py>(&self, py: Python<'py>) -> Option<Fit<'py>> {
+    fn _fitted<'py>(&self, py: Python<'py>) -> Option<Fit<'py>> {
         if let Some(dynamic) = &self.dynamic {
             return Some(self.dynamic_fit(py, dynamic));
         }
@@ -93,33 +99,35 @@ impl Body {
         ))
     }
 
+    /// Its name, where it has one.
     #[getter]
     fn name(&self) -> Option<&str> {
         self.material.series()?.name()
     }
 
-    /// The Poisson ratio, where it is constant in time.
+    /// Poisson ratio, where it is constant in time.
     #[getter]
     fn poisson_ratio(&self) -> Option<f64> {
         self.material.poisson_ratio()
     }
 
-    /// The bulk modulus (Pa), where it is constant in time in place of the Poisson ratio.
+    /// Bulk modulus (Pa), where it is constant in time in place of the Poisson ratio.
     #[getter]
-    fn bulk_modulus_pa(&self) -> Option<f64> {
+    fn bulk_modulus(&self) -> Option<f64> {
         self.material
             .series()?
             .compressibility()
             .constant_bulk_modulus_pa()
     }
 
+    /// The temperature (K) that it is for, where the data know temperatures.
     #[getter]
-    fn temperature_k(&self) -> Option<f64> {
+    fn temperature(&self) -> Option<f64> {
         self.material.series()?.origin.temperature_k
     }
 
     #[pyo3(signature = (angular_frequency, modulus) -> "NDArray[complex128]")]
-    fn complex_modulus<'py>(
+    fn _complex_modulus<'py>(
         &self,
         py: Python<'py>,
         angular_frequency: PyReadonlyArray1<'py, f64>,
@@ -134,7 +142,7 @@ impl Body {
         Ok(all.into_pyarray(py))
     }
 
-    fn creep_compliance<'py>(
+    fn _creep_compliance<'py>(
         &self,
         py: Python<'py>,
         time: PyReadonlyArray1<'py, f64>,
@@ -142,25 +150,31 @@ impl Body {
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let creep = self.series()?.creep_as(kind(modulus)?);
         let creep = creep.map_err(failure::of_value)?;
-        let all = time.as_array();
-        let all: Vec<f64> = all.iter().map(|t| creep.compliance(*t)).collect();
+        let all: Vec<f64> = time
+            .as_array()
+            .iter()
+            .map(|t| creep.compliance(*t))
+            .collect();
         Ok(all.into_pyarray(py))
     }
 
-    fn relaxation_modulus<'py>(
+    fn _relaxation_modulus<'py>(
         &self,
         py: Python<'py>,
         time: PyReadonlyArray1<'py, f64>,
         modulus: &str,
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let relaxation = self.relaxation(modulus)?;
-        let all = time.as_array();
-        let all: Vec<f64> = all.iter().map(|t| relaxation.modulus(*t)).collect();
+        let all: Vec<f64> = time
+            .as_array()
+            .iter()
+            .map(|t| relaxation.modulus(*t))
+            .collect();
         Ok(all.into_pyarray(py))
     }
 
-    fn prony<'py>(&self, py: Python<'py>, modulus: &str) -> PyResult<Prony<'py>> {
-        let relaxation = self.relaxation(modulus)?;
+    fn _prony<'py>(&self, py: Python<'py>) -> PyResult<Prony<'py>> {
+        let relaxation = self.relaxation("longitudinal")?;
         let branches = relaxation.branches();
         let moduli: Vec<f64> = branches.iter().map(|b| b.modulus_pa).collect();
         let times: Vec<f64> = branches.iter().map(|b| b.time_s).collect();

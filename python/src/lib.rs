@@ -12,6 +12,7 @@ mod failure;
 mod folder;
 mod history;
 mod measured;
+mod record;
 mod shape;
 mod source;
 mod sweep;
@@ -26,13 +27,19 @@ mod _contact_dma {
     #[pymodule_export]
     use crate::body::Body;
     #[pymodule_export]
-    use crate::history::{History, restore_history, simulate};
+    use crate::history::History;
     #[pymodule_export]
-    use crate::measured::{analyse, identify_material, quantity, restore_analysis, write_files};
+    use crate::measured::{Loops, identify_material, quantity, write_files};
+    #[pymodule_export]
+    use crate::record::{
+        Cycle, Field, MeasuredCycle, Peak, PressureLine, PressureProfile, Status, SurfaceLine,
+        SurfaceProfile, Warning,
+    };
     #[pymodule_export]
     use crate::shape::Shape;
     #[pymodule_export]
-    use crate::sweep::{Sweep, read_sweep, restore_sweep, sweep};
+    use crate::sweep::Sweep;
+    use contact_dma::input::python_calls::{self, CallOf};
     use contact_dma::material::library;
     use pyo3::prelude::*;
 
@@ -44,5 +51,39 @@ mod _contact_dma {
     fn library_materials() -> Vec<(&'static str, &'static str, &'static str)> {
         let entries = library::entries().iter();
         entries.map(|e| (e.name, e.title, e.source)).collect()
+    }
+
+    /// An argument: name, key, type, what counts without it as JSON, and meaning.
+    type Argument = (&'static str, String, String, Option<String>, String);
+
+    /// What takes keys of the input files as its arguments: the class that it belongs to, or "", name, meaning, arguments by place,
+    /// arguments.
+    #[pyfunction]
+    fn calls() -> Vec<(&'static str, String, &'static str, usize, Vec<Argument>)> {
+        let calls = python_calls::calls().into_iter().map(|call| {
+            let of = match call.of {
+                CallOf::Module => "",
+                CallOf::Material => "Material",
+                CallOf::Indenter => "Indenter",
+            };
+            let arguments = call.arguments.into_iter().map(|argument| {
+                let default = argument.default.map(|value| value.to_string());
+                (
+                    argument.name,
+                    argument.key,
+                    argument.annotation,
+                    default,
+                    argument.means,
+                )
+            });
+            (
+                of,
+                call.name,
+                call.about,
+                call.positional,
+                arguments.collect(),
+            )
+        });
+        calls.collect()
     }
 }

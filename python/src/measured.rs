@@ -16,13 +16,14 @@ use contact_dma::report::measured::{Analysis, MeasuredRow, columns, files, order
 use contact_dma::sweep::plan::resolved::material_text;
 use contact_dma::sweep::search::run::{pool, useful_threads};
 use contact_dma::sweep::store::manifest::{Kind, Target};
-use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyReadonlyArray1};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
+use pyo3::types::{PyBytes, PyTuple, PyType};
 use rayon::prelude::*;
 
-use crate::source::Source;
+use crate::record::{Items, MeasuredCycle, Status, Warning};
+use crate::source::{Source, reduced};
 use crate::wait;
 use crate::{arrays, failure};
 
@@ -35,34 +36,105 @@ enum RecordSource {
 /// Files with their bytes.
 pub type Files<'py> = Vec<(String, Bound<'py, PyBytes>)>;
 
-/// Samples of a mean cycle: time, load, approach.
-type Cycle<'py> = (Line<'py>, Line<'py>, Line<'py>);
+/// What measured loops say.
+#[pyclass(frozen, subclass, module = "contact_dma._contact_dma")]
+pub struct Loops(Analysis);
 
-type Line<'py> = Bound<'py, PyArray1<f64>>;
+/// Records, what is known of all of them, and how they are read; or an analysis as the program keeps it.
+#[derive(FromPyObject)]
+enum LoopsOrigin<'py> {
+    Kept(Bound<'py, PyBytes>),
+    #[pyo3(transparent)]
+    Records(Vec<Bound<'py, PyAny>>),
+}
 
-/// Columns, mean cycles, reasons of rows without a result, what was found in each, and every file of the folder.
-type Analysed<'py> = (
-    Vec<(String, Bound<'py, PyAny>)>,
-    Vec<Option<Cycle<'py>>>,
-    Vec<(&'static str, Option<String>)>,
-    Vec<Vec<(&'static str, String)>>,
-    Files<'py>,
-);
+#[pymethods]
+impl Loops {
+    /// Of records, of which a frequency (Hz) and a setup, by name and text, may be known; or of the bytes of an ``analysis.json``.
+    #[new]
+    #[pyo3(signature = (origin: "object", frequency_hz = None, setup = (String::new(), None), threads = None))]
+    fn new(
+        py: Python<'_>,
+        origin: LoopsOrigin<'_>,
+        frequency_hz: Option<f64>,
+        setup: (String, Option<String>),
+        threads: Option<NonZeroUsize>,
+    ) -> PyResult<Self> {
+        match origin {
+            LoopsOrigin::Records(records) => analysed(py, &records, frequency_hz, setup, threads),
+            LoopsOrigin::Kept(everything) => {
+                let analysis = serde_json::from_slice(everything.as_bytes());
+                analysis.map(Self).map_err(|error| {
+                    failure::of_value(format!(
+                        "analysis.json is none that this version of the program wrote: {error}"
+                    ))
+                })
+            }
+        }
+    }
 
-/// What measured loops say. The text is that of a setup.
-#[pyfunction]
-pub fn analyse<'py>(
-    py: Python<'py>,
-    records: Vec<Bound<'py, PyAny>>,
+    fn _all_columns<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
+        arrays::columns(py, &columns::of_records(), &self.0.rows)
+    }
+
+    /// How every record ended, and why it has no result.
+    #[getter]
+    fn status(&self, py: Python<'_>) -> PyResult<Items<Status>> {
+        let status = |row: &MeasuredRow| Status {
+            name: row.status().name().to_owned(),
+            reason: row.reason.clone(),
+        };
+        Items::new(py, self.0.rows.iter().map(status))
+    }
+
+    /// For every record, what is to be known of it.
+    #[getter]
+    fn findings(&self, py: Python<'_>) -> PyResult<Items<Items<Warning>>> {
+        let of =
+            |row: &MeasuredRow| Items::new(py, row.findings().map(|f| Warning::of(f.code(), f)));
+        let all = self.0.rows.iter().map(of);
+        Items::new(py, all.collect::<PyResult<Vec<_>>>()?)
+    }
+
+    /// The mean cycle of every record.
+    #[getter]
+    fn cycles(&self, py: Python<'_>) -> PyResult<Items<MeasuredCycle>> {
+        let cycle = |row: &MeasuredRow| {
+            let line = |values: Vec<f64>| values.into_pyarray(py).unbind();
+            let samples = row.samples().unwrap_or_default();
+            MeasuredCycle {
+                time: line(samples.time_s),
+                load: line(samples.load_n),
+                approach: line(samples.approach_m),
+            }
+        };
+        Items::new(py, self.0.rows.iter().map(cycle))
+    }
+
+    fn _files<'py>(&self, py: Python<'py>) -> PyResult<Files<'py>> {
+        Ok(bytes(py, files(&self.0).map_err(failure::of_run)?))
+    }
+
+    #[pyo3(signature = () -> "tuple[Any, tuple[Any, ...]]")]
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyType>, Bound<'py, PyTuple>)> {
+        let everything = serde_json::to_vec(&slf.get().0).map_err(failure::of_run)?;
+        reduced(slf.as_any(), PyBytes::new(slf.py(), &everything))
+    }
+}
+
+fn analysed(
+    py: Python<'_>,
+    records: &[Bound<'_, PyAny>],
     frequency_hz: Option<f64>,
-    setup: (String, Option<String>),
+    (name, text): (String, Option<String>),
     threads: Option<NonZeroUsize>,
-) -> PyResult<Analysed<'py>> {
+) -> PyResult<Loops> {
     let records = records
         .iter()
         .map(record_source)
         .collect::<PyResult<Vec<_>>>()?;
-    let (name, text) = setup;
     let given = match &text {
         None => setup_file::Setup::default(),
         Some(text) => Document::parse(&name, text)
@@ -90,32 +162,7 @@ pub fn analyse<'py>(
         rows: ordered(rows.map_err(|found| failure::of_input(&found))?),
         computed: Vec::new(),
     };
-    analysed(py, &analysis)
-}
-
-/// The analysis that the program has kept in `analysis.json`.
-#[pyfunction]
-pub fn restore_analysis<'py>(py: Python<'py>, everything: &[u8]) -> PyResult<Analysed<'py>> {
-    let analysis = serde_json::from_slice::<Analysis>(everything);
-    let analysis = analysis.map_err(|error| {
-        failure::of_value(format!(
-            "analysis.json is none that this version of the program wrote: {error}"
-        ))
-    })?;
-    analysed(py, &analysis)
-}
-
-fn analysed<'py>(py: Python<'py>, analysis: &Analysis) -> PyResult<Analysed<'py>> {
-    let files = files(analysis).map_err(failure::of_run)?;
-    Ok((
-        arrays::columns(py, &columns::of_records(), &analysis.rows)?,
-        analysis.rows.iter().map(|row| cycle(py, row)).collect(),
-        (analysis.rows.iter())
-            .map(|row| (row.status().name(), row.reason.clone()))
-            .collect(),
-        analysis.rows.iter().map(findings).collect(),
-        bytes(py, files),
-    ))
+    Ok(Loops(analysis))
 }
 
 fn record_source(record: &Bound<'_, PyAny>) -> PyResult<RecordSource> {
@@ -142,19 +189,6 @@ fn row(record: RecordSource, options: &Options) -> Result<MeasuredRow, Diagnosti
         ),
     };
     Ok(MeasuredRow::of(file, &signal, options))
-}
-
-fn cycle<'py>(py: Python<'py>, row: &MeasuredRow) -> Option<Cycle<'py>> {
-    let samples = row.samples()?;
-    Some((
-        samples.time_s.into_pyarray(py),
-        samples.load_n.into_pyarray(py),
-        samples.approach_m.into_pyarray(py),
-    ))
-}
-
-fn findings(row: &MeasuredRow) -> Vec<(&'static str, String)> {
-    row.findings().map(|f| (f.code(), f.to_string())).collect()
 }
 
 pub fn bytes<N: Into<String>>(py: Python<'_>, files: Vec<(N, Vec<u8>)>) -> Files<'_> {

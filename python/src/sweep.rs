@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -12,22 +12,25 @@ use contact_dma::input::sweep_file;
 use contact_dma::report::{cycles, quantities, summary, sweep_tables};
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::resolved::{hash, resolved_text};
-use contact_dma::sweep::plan::{Case, SweepPlan};
-use contact_dma::sweep::record::{CaseRecord, RecordedCycle};
-use contact_dma::sweep::search::peak::Peak;
+use contact_dma::sweep::plan::{Case, SweepPlan, Varied};
+use contact_dma::sweep::record::{self, CaseRecord, RecordedCycle};
+use contact_dma::sweep::search;
 use contact_dma::sweep::search::run::{self, Mode, Outcome, Progress};
-use contact_dma::sweep::store::provenance::{BUILD, Circumstances, Stopwatch};
+use contact_dma::sweep::store::provenance::{Circumstances, Stopwatch};
 use contact_dma::sweep::store::{Archive, RESOLVED, Store, merge, records};
-use numpy::{IntoPyArray, PyArray1};
+use numpy::PyArray1;
 use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyTuple};
+use pyo3::types::{PyTuple, PyType};
 
 use crate::folder::MapFile;
+use crate::record::{
+    AxisValue, Cycle, Items, Line, Peak, PressureLine, PressureProfile, Status, Warning,
+};
 use crate::shape::Shape;
-use crate::source::Source;
+use crate::source::{Origin, Packed, Source, reduced};
 use crate::wait::{self, Counter, Watch};
-use crate::{arrays, blocks, failure};
+use crate::{arrays, failure};
 
 /// Where the records of a result are.
 enum Records {
@@ -45,7 +48,7 @@ impl Records {
 }
 
 /// A sweep and what it came to.
-#[pyclass(frozen, module = "contact_dma._contact_dma")]
+#[pyclass(frozen, subclass, module = "contact_dma._contact_dma")]
 pub struct Sweep {
     plan: SweepPlan,
     outcome: Outcome,
@@ -81,69 +84,79 @@ impl Progress for Count<'_> {
     }
 }
 
-/// Samples of a cycle: time, load, approach, contact radius, peak pressure.
-type Samples<'py> = (Line<'py>, Line<'py>, Line<'py>, Line<'py>, Line<'py>);
-
-type Line<'py> = Bound<'py, PyArray1<f64>>;
-
-/// A pressure profile: instant, time, load, approach, contact radius; and lines: along what, positions, pressures.
-type Profile<'py> = (
-    String,
-    (f64, f64, f64, f64),
-    Vec<(&'static str, Line<'py>, Line<'py>)>,
-);
-
 #[pymethods]
 impl Sweep {
-    fn columns<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
+    #[new]
+    #[pyo3(signature = (origin: "object", threads = None, progress = None))]
+    fn new(
+        py: Python<'_>,
+        origin: Origin<'_>,
+        threads: Option<NonZeroUsize>,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        match origin {
+            Origin::Call(source) => solved(py, &source, threads, progress.as_ref()),
+            Origin::Packed(packed) => {
+                let (document, given) = packed.document("the pickled sweep")?;
+                let memory = records::Records::from_bytes(packed.3.as_bytes(py));
+                let memory = Records::Memory(memory.ok_or_else(failure::of_other_build)?);
+                collected(py, &document, &given, memory, (packed.2, packed.4))
+            }
+            Origin::Folder(folder) => read(py, &folder),
+        }
+    }
+
+    fn _all_columns<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
         let unit = self.plan.figures.frequency_unit;
         let branches = self.outcome.branches();
         let columns = quantities::of_cases(branches, unit, self.plan.axes.as_ref());
         arrays::columns(py, &columns, &self.outcome.records)
     }
 
-    /// How every case ended, and why it has no result or what else is to be known of it.
-    fn status(&self) -> Vec<(&'static str, Option<String>)> {
-        let records = self.outcome.records.iter();
-        let of = |record: &CaseRecord| record.status.name();
-        let message = |record: &CaseRecord| record.message.as_deref().map(failure::in_python);
-        records.map(|r| (of(r), message(r))).collect()
+    /// How every case ended, and why it has no result.
+    #[getter]
+    fn status(&self, py: Python<'_>) -> PyResult<Items<Status>> {
+        let of = |record: &CaseRecord| Status {
+            name: record.status.name().to_owned(),
+            reason: record.message.as_deref().map(failure::in_python),
+        };
+        Items::new(py, self.outcome.records.iter().map(of))
     }
 
-    /// The warnings of every case: code and sentence.
-    fn warnings(&self) -> Vec<Vec<(&'static str, String)>> {
-        let records = self.outcome.records.iter();
+    /// For every case, what lies outside the model or was not estimated.
+    #[getter]
+    fn warnings(&self, py: Python<'_>) -> PyResult<Items<Items<Warning>>> {
         let of = |record: &CaseRecord| {
             let warnings = record.warnings.iter();
-            warnings.map(|w| (w.code(), w.to_string())).collect()
+            Items::new(py, warnings.map(|w| Warning::of(w.code(), w)))
         };
-        records.map(of).collect()
+        let all = self.outcome.records.iter().map(of);
+        Items::new(py, all.collect::<PyResult<Vec<_>>>()?)
     }
 
-    fn peaks(&self) -> Vec<PeakNumbers> {
-        (self.outcome.peaks.iter())
-            .map(|one| peak(&self.plan, one))
-            .collect()
-    }
-
+    /// Local maxima of the loss over frequency, largest first.
     #[getter]
-    fn peak_problems(&self) -> Vec<String> {
-        self.outcome.peak_problems.clone()
+    fn peaks(&self, py: Python<'_>) -> PyResult<Items<Peak>> {
+        let peaks = self.outcome.peaks.iter().map(|peak| self.peak(py, peak));
+        Items::new(py, peaks.collect::<PyResult<Vec<_>>>()?)
     }
 
+    /// Peaks that could not be located, with the reason.
     #[getter]
-    fn notes(&self) -> Vec<String> {
-        self.notes.clone()
+    fn peak_problems(&self, py: Python<'_>) -> PyResult<Items<String>> {
+        Items::new(py, self.outcome.peak_problems.iter().cloned())
     }
 
+    /// What was met on the way, such as a damaged record.
+    #[getter]
+    fn notes(&self, py: Python<'_>) -> PyResult<Items<String>> {
+        Items::new(py, self.notes.iter().cloned())
+    }
+
+    /// Its title.
     #[getter]
     fn title(&self) -> &str {
         &self.plan.title
-    }
-
-    #[getter]
-    fn control(&self) -> &'static str {
-        self.plan.base.drive.control().name()
     }
 
     /// The sweep as the text of a sweep file, every default filled in.
@@ -152,111 +165,131 @@ impl Sweep {
         resolved_text(&self.plan)
     }
 
-    /// What is written to summary.json.
-    fn summary(&self) -> PyResult<Vec<u8>> {
+    fn _summary(&self) -> PyResult<Vec<u8>> {
         let hash = hash(&resolved_text(&self.plan));
         let summary = summary::summary(&self.plan, &self.outcome, &hash);
         summary.map_err(|error| failure::of_report(&error))
     }
 
-    fn __len__(&self) -> usize {
+    /// The columns of the axes besides the frequency.
+    fn _axes(&self, py: Python<'_>) -> PyResult<Items<String>> {
+        Items::new(py, self.over().map(Varied::column))
+    }
+
+    #[getter]
+    fn _cases(&self) -> usize {
         self.outcome.records.len()
     }
 
-    fn cycle<'py>(slf: &Bound<'py, Self>, index: usize) -> PyResult<Option<Samples<'py>>> {
-        let py = slf.py();
-        let record = slf.get().record(index)?;
+    fn _cycle(slf: &Bound<'_, Self>, index: usize) -> PyResult<Cycle> {
+        let (py, this) = (slf.py(), slf.get());
+        let record = this.record(index)?;
+        let angular_frequency = record.angular_frequency_rad_per_s;
         if let Some(cycle) = record.result.as_ref().and_then(|result| result.cycle()) {
-            let samples = &cycle.samples;
-            let line = |values: &[f64]| arrays::line(slf.as_any(), values);
-            return Ok(Some((
-                line(&samples.time_s),
-                line(&samples.load_n),
-                line(&samples.approach_m),
-                line(&samples.contact_radius_m),
-                pressures(py, &samples.peak_pressure_pa),
-            )));
+            let line = |values: &[f64]| arrays::line(slf.as_any(), values).unbind();
+            return this.cycle(py, angular_frequency, cycle, &line);
         }
-        Ok(slf.get().read_cycle(record)?.map(|cycle| {
-            let samples = cycle.samples;
-            (
-                samples.time_s.into_pyarray(py),
-                samples.load_n.into_pyarray(py),
-                samples.approach_m.into_pyarray(py),
-                samples.contact_radius_m.into_pyarray(py),
-                pressures(py, &samples.peak_pressure_pa),
-            )
-        }))
+        let line = |values: &[f64]| PyArray1::from_slice(py, values).unbind();
+        let read = this.read_cycle(record)?.unwrap_or_default();
+        this.cycle(py, angular_frequency, &read, &line)
     }
 
-    fn profiles<'py>(&self, py: Python<'py>, index: usize) -> PyResult<Vec<Profile<'py>>> {
-        let record = self.record(index)?;
-        let read;
-        let held = record.result.as_ref().and_then(|result| result.cycle());
-        let cycle = match held {
-            Some(cycle) => Some(cycle),
-            None => {
-                read = self.read_cycle(record)?;
-                read.as_ref()
-            }
-        };
-        let control = self.plan.base.drive.control();
-        let profiles = cycle.into_iter().flat_map(|cycle| &cycle.pressures);
-        let profile = |profile: &contact_dma::sweep::record::PressureProfile| {
-            let lines = profile.lines.iter().map(|line| {
-                let position = line.position_m.clone().into_pyarray(py);
-                (
-                    line.along.symbol(),
-                    position,
-                    pressures(py, &line.pressure_pa),
-                )
-            });
-            let instant = (
-                profile.time_s,
-                profile.load_n,
-                profile.approach_m,
-                profile.contact_radius_m,
-            );
-            (profile.quarter.name(control), instant, lines.collect())
-        };
-        Ok(profiles.map(profile).collect())
-    }
-
-    /// Writes what the program writes, but for figures and page.
-    fn save(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<()> {
-        py.detach(|| self.write(&folder, force))
+    /// Writes what ``contact-dma sweep`` writes: records, ``sweep.csv``, loops, pressures, work, ``cycles.npz``, ``summary.json``,
+    /// ``resolved.toml``, ``run.json``; a map of an array as ``height-map.npy``.
+    ///
+    /// Figures and page are drawn from these by ``contact-dma report FOLDER``, and `read` reads them again.
+    ///
+    /// Args:
+    ///     folder: is made where it is not there.
+    ///     overwrite: whether another sweep's results there are replaced.
+    #[pyo3(signature = (folder, *, overwrite = false))]
+    fn save(&self, py: Python<'_>, folder: PathBuf, overwrite: bool) -> PyResult<()> {
+        py.detach(|| self.write(&folder, overwrite))
     }
 
     #[pyo3(signature = () -> "tuple[Any, tuple[Any, ...]]")]
     fn __reduce__<'py>(
         slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+    ) -> PyResult<(Bound<'py, PyType>, Bound<'py, PyTuple>)> {
         let (py, this) = (slf.py(), slf.get());
-        let module = py.import("contact_dma._contact_dma")?;
         match &this.records {
             Records::Memory(memory) => {
-                let bytes = memory.to_bytes();
-                let arguments = (
-                    BUILD,
-                    resolved_text(&this.plan),
-                    this.shape.as_ref(),
-                    PyBytes::new(py, &bytes),
-                    this.threads,
-                );
-                Ok((
-                    module.getattr("restore_sweep")?,
-                    arguments.into_pyobject(py)?,
-                ))
+                let (shape, resolved) = (this.shape.as_ref(), resolved_text(&this.plan));
+                let packed = Packed::of(py, resolved, shape, &memory.to_bytes(), this.threads);
+                reduced(slf.as_any(), packed)
             }
-            Records::Folder(store) => {
-                let arguments = (store.folder(),).into_pyobject(py)?;
-                Ok((module.getattr("read_sweep")?, arguments))
-            }
+            Records::Folder(store) => reduced(slf.as_any(), store.folder()),
         }
     }
 }
 
 impl Sweep {
+    /// What varies besides the frequency.
+    fn over(&self) -> impl Iterator<Item = &Varied> {
+        self.plan.axes.iter().flat_map(|axes| &axes.over)
+    }
+
+    fn peak(&self, py: Python<'_>, peak: &search::peak::Peak) -> PyResult<Peak> {
+        let varied = self.over().zip(peak.varied.all());
+        let varied = varied.map(|(varied, value)| match varied.block_name(*value) {
+            Some(name) => AxisValue::Name(name.to_owned()),
+            None => AxisValue::Number(value.as_number()),
+        });
+        Ok(Peak {
+            angular_frequency: peak.angular_frequency_rad_per_s,
+            energy_loss: peak.energy_loss_j,
+            angular_frequency_uncertainty: peak.angular_frequency_uncertainty_rad_per_s,
+            energy_loss_error: peak.energy_loss_error_j,
+            varied: Items::new(py, varied)?,
+            drive_mean: peak.drive_mean,
+            drive_amplitude: peak.drive_amplitude,
+            varied_columns: self._axes(py)?,
+        })
+    }
+
+    fn cycle(
+        &self,
+        py: Python<'_>,
+        angular_frequency: f64,
+        cycle: &RecordedCycle,
+        line: &dyn Fn(&[f64]) -> Line,
+    ) -> PyResult<Cycle> {
+        let samples = &cycle.samples;
+        let profiles = cycle
+            .pressures
+            .iter()
+            .map(|profile| self.profile(py, profile));
+        Ok(Cycle {
+            angular_frequency,
+            time: line(&samples.time_s),
+            load: line(&samples.load_n),
+            approach: line(&samples.approach_m),
+            contact_radius: line(&samples.contact_radius_m),
+            peak_pressure: arrays::nullable(py, samples.peak_pressure_pa.iter().copied()),
+            profiles: Items::new(py, profiles.collect::<PyResult<Vec<_>>>()?)?,
+        })
+    }
+
+    fn profile(
+        &self,
+        py: Python<'_>,
+        profile: &record::PressureProfile,
+    ) -> PyResult<PressureProfile> {
+        let lines = profile.lines.iter().map(|line| PressureLine {
+            along: line.along.symbol().to_owned(),
+            position: PyArray1::from_slice(py, &line.position_m).unbind(),
+            pressure: arrays::nullable(py, line.pressure_pa.iter().copied()),
+        });
+        Ok(PressureProfile {
+            instant: profile.quarter.name(self.plan.base.drive.control()),
+            time: profile.time_s,
+            load: profile.load_n,
+            approach: profile.approach_m,
+            contact_radius: profile.contact_radius_m,
+            lines: Items::new(py, lines)?,
+        })
+    }
+
     fn record(&self, index: usize) -> PyResult<&CaseRecord> {
         let record = self.outcome.records.get(index);
         record.ok_or_else(|| PyIndexError::new_err("there is no such case"))
@@ -274,7 +307,7 @@ impl Sweep {
         Ok(cycle.filter(RecordedCycle::is_held))
     }
 
-    fn write(&self, folder: &std::path::Path, force: bool) -> PyResult<()> {
+    fn write(&self, folder: &Path, force: bool) -> PyResult<()> {
         let mut plan = self.plan.clone();
         let map = self.shape.as_ref().and_then(|shape| shape.get().map());
         let map = map.map(|map| MapFile::of(map, folder)).transpose()?;
@@ -321,55 +354,12 @@ impl Sweep {
     }
 }
 
-/// What is known of a peak.
-type PeakNumbers = (
-    f64,
-    f64,
-    f64,
-    Option<f64>,
-    Vec<PeakValue>,
-    Option<f64>,
-    Option<f64>,
-);
-
-/// What an axis has for a peak: a number in SI units, or the name of a block.
-#[derive(IntoPyObject)]
-enum PeakValue {
-    Number(f64),
-    Name(String),
-}
-
-fn peak(plan: &SweepPlan, peak: &Peak) -> PeakNumbers {
-    let over = plan.axes.iter().flat_map(|axes| &axes.over);
-    let varied = over.zip(peak.varied.all());
-    (
-        peak.angular_frequency_rad_per_s,
-        peak.energy_loss_j,
-        peak.angular_frequency_uncertainty_rad_per_s,
-        peak.energy_loss_error_j,
-        varied
-            .map(|(varied, value)| match varied.block_name(*value) {
-                Some(name) => PeakValue::Name(name.to_owned()),
-                None => PeakValue::Number(value.as_number()),
-            })
-            .collect(),
-        peak.drive_mean,
-        peak.drive_amplitude,
-    )
-}
-
-fn pressures<'py>(py: Python<'py>, values: &[Option<f64>]) -> Bound<'py, PyArray1<f64>> {
-    arrays::numbers(values.iter().copied()).into_pyarray(py)
-}
-
 /// Solves every case of a sweep and locates the peaks.
-#[pyfunction]
-#[pyo3(signature = (source: "object", threads, progress))]
-pub fn sweep(
+fn solved(
     py: Python<'_>,
-    source: Source<'_>,
+    source: &Source<'_>,
     threads: Option<NonZeroUsize>,
-    progress: Option<Bound<'_, PyAny>>,
+    progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Sweep> {
     let clock = Stopwatch::start();
     let (document, given) = (source.document()?, source.given());
@@ -384,7 +374,7 @@ pub fn sweep(
     counter.total.store(cases.len(), Ordering::Relaxed);
     let watch = Watch {
         counter: &counter,
-        callback: progress.as_ref(),
+        callback: progress,
     };
     // More threads than cases have nothing to do until peaks are located, which takes a few for each.
     let threads = run::useful_threads(threads).min(cases.len().max(1) * PEAK_CASES);
@@ -420,48 +410,13 @@ pub fn sweep(
 /// Cases that are solved at once to locate a peak.
 const PEAK_CASES: usize = 5;
 
-/// A result of the records that [`Sweep::__reduce__`] has packed.
-#[pyfunction]
-pub fn restore_sweep(
-    py: Python<'_>,
-    build: &str,
-    resolved: &str,
-    shape: Option<Py<Shape>>,
-    records: &[u8],
-    threads: usize,
-) -> PyResult<Sweep> {
-    if build != BUILD {
-        return Err(failure::of_other_build());
-    }
-    let given = Given {
-        material: None,
-        indenter: shape.as_ref().map(|shape| shape.get().indenter()),
-    };
-    let memory = records::Records::from_bytes(records).ok_or_else(failure::of_other_build)?;
-    let text = match &shape {
-        // The indenter is a value.
-        Some(_) => blocks::without(resolved, "indenter")?,
-        None => resolved.to_owned(),
-    };
-    let document = Document::parse("the pickled sweep", &text);
-    let document = document.map_err(|found| failure::of_input(&found))?;
-    collected(
-        py,
-        &document,
-        &given,
-        Records::Memory(memory),
-        (shape, threads),
-    )
-}
-
 /// The result in a folder of the program.
-#[pyfunction]
-pub fn read_sweep(py: Python<'_>, folder: PathBuf) -> PyResult<Sweep> {
-    let opened = Store::reopen_to_read(&folder);
+fn read(py: Python<'_>, folder: &Path) -> PyResult<Sweep> {
+    let opened = Store::reopen_to_read(folder);
     let (store, resolved) = opened.map_err(|error| failure::of_store(&error))?;
     let name = folder.join(RESOLVED).display().to_string();
     let document = Document::parse(&name, &resolved).map_err(|found| failure::of_input(&found))?;
-    let document = document.in_folder(&folder);
+    let document = document.in_folder(folder);
     let records = Records::Folder(store);
     collected(py, &document, &Given::default(), records, (None, 1))
 }

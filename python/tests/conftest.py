@@ -23,7 +23,7 @@ def small_sweep(**changes: object) -> cd.SweepResult:
         "steps": 32,
         "title": "PMMA",
     }
-    result = cd.sweep(cd.Material.library("pmma"), cd.Sphere("10 mm"), **{**options, **changes})  # type: ignore[call-overload]
+    result = cd.sweep(cd.Material.library("pmma"), cd.Sphere("10 mm"), **{**options, **changes})  # type: ignore[arg-type]
     assert isinstance(result, cd.SweepResult)
     return result
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import errno
 import inspect
+import re
+import tempfile
 import warnings
 from collections.abc import Callable
 from pathlib import Path
@@ -55,14 +57,14 @@ WRONG: list[tuple[Callable[[], object], list[str]]] = [
     (lambda: small_sweep(threads=0), ["threads is 0"]),
     (lambda: small_sweep(threads="2"), ["threads is '2'"]),
     (lambda: small_sweep(threads=10**20), ["threads is 1000"]),
-    (lambda: cd.sweep("pmma", SPHERE, mean=1.0), ['Material.library("pmma")']),  # type: ignore[call-overload]
-    (lambda: cd.sweep(SPHERE, PMMA, mean=1.0), ["material comes first"]),  # type: ignore[call-overload]
-    (lambda: cd.sweep(None, SPHERE, mean=1.0), ["the first argument is a Material"]),  # type: ignore[call-overload]
-    (lambda: cd.simulate("pmma", SPHERE, segments=[]), ['Material.library("pmma")']),  # type: ignore[call-overload]
+    (lambda: cd.sweep("pmma", SPHERE, mean=1.0), ['Material.library("pmma")']),
+    (lambda: cd.sweep(SPHERE, PMMA, mean=1.0), ["material comes first"]),  # type: ignore[arg-type]
+    (lambda: cd.sweep(None, SPHERE, mean=1.0), ["the first argument is a Material"]),  # type: ignore[arg-type]
+    (lambda: cd.simulate("pmma", SPHERE, segments=[]), ['Material.library("pmma")']),
     (lambda: small_sweep(progress=3), ["progress"]),
-    (lambda: cd.sweep(PMMA, 3.0, mean=1.0, amplitude=0.5), ["second argument"]),  # type: ignore[call-overload]
+    (lambda: cd.sweep(PMMA, 3.0, mean=1.0, amplitude=0.5), ["second argument"]),  # type: ignore[arg-type]
     (lambda: cd.sweep(ROOT / "sweeps/pmma.toml", overrides={"cycle.stps": 3}), ["stps", "steps"]),
-    (lambda: cd.sweep(ROOT / "sweeps/pmma.toml", steps=3), ["overrides"]),  # type: ignore[call-overload]
+    (lambda: cd.sweep(ROOT / "sweeps/pmma.toml", steps=3), ["overrides"]),
     (lambda: cd.Sphere("-1 mm"), ["radius"]),
     (lambda: cd.Sphere("1 N"), ["indenter.radius", "force"]),
     (lambda: cd.Cone("100 deg"), ["half_angle"]),
@@ -87,6 +89,7 @@ WRONG: list[tuple[Callable[[], object], list[str]]] = [
     (lambda: cd.Material.relaxation("1 MPa", [("1 MPa", 0.0)], poisson_ratio=0.3), ["time"]),
     (lambda: cd.Material.relaxation("1 MPa", [], poisson_ratio=0.7), ["poisson_ratio"]),
     (lambda: cd.Material.from_toml("[material]\n"), ["library"]),
+    (lambda: cd.Material.zener("1 MPa", "2 MPa", [1.0, 2.0], poisson_ratio=0.3), ["time takes one value"]),  # type: ignore[arg-type]
     (lambda: cd.Material.from_toml("[material"), ["material"]),
     (lambda: cd.Material.from_dynamic(poisson_ratio=0.3), ["a file, or angular_frequency"]),
     (lambda: cd.Material.from_dynamic(storage_modulus=[1.0], loss_modulus=[1.0], poisson_ratio=0.3), ["angular_frequency or frequency"]),
@@ -171,7 +174,31 @@ def test_messages_advise_what_can_be_written_in_python(tmp_path: Path, result: c
 def test_arrays_that_are_refused_are_not_a_file_that_is_gone() -> None:
     with pytest.raises(ValueError) as refused:
         cd.Material.from_dynamic(angular_frequency=[1.0, 2.0, 4.0], storage_modulus=[1e9, -2e9, 3e9], loss_modulus=[1e8] * 3, poisson_ratio=0.3)
-    assert "the arrays:3" in str(refused.value) and "arrays.csv" not in str(refused.value)
+    assert "arguments, row 2" in str(refused.value) and ".csv" not in str(refused.value)
+    # Of a table under a name of its own the argument is told.
+    with pytest.raises(ValueError) as refused:
+        cd.Material.from_dynamic(
+            {"angular_frequency": [1.0, 2.0, 4.0], "storage_modulus": [1e9, -2e9, 3e9], "loss_modulus": [1e8] * 3}, poisson_ratio=0.3
+        )
+    assert "argument `file`, row 2" in str(refused.value)
+    errors = {"energy_loss_j": [1e-6] * 5, "energy_loss_error_j": [1e-8] * 4 + [-1e-8]}
+    with pytest.raises(ValueError) as refused:
+        cd.identify({"frequency_hz": [1.0, 2.0, 3.0, 4.0, 5.0], **errors}, SPHERE, poisson_ratio=0.45, mean=0.2, amplitude=0.1)
+    assert "argument `data`, row 5" in str(refused.value) and "above zero" in str(refused.value)
+
+
+def test_arrays_are_written_to_no_file(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("TemporaryDirectory", "mkdtemp", "mkstemp", "NamedTemporaryFile", "TemporaryFile"):
+        monkeypatch.setattr(tempfile, name, lambda *_, **__: pytest.fail("a temporary file"))
+    omega = np.logspace(-2, 2, 25)
+    solid = cd.Material.relaxation("10 MPa", [("90 MPa", "1 s")], poisson_ratio=0.45)
+    measured = solid.complex_modulus(omega)
+    cd.Material.from_dynamic(angular_frequency=omega, storage_modulus=measured.real, loss_modulus=measured.imag, poisson_ratio=0.45)
+    drive: dict[str, object] = {"mean": 0.2, "amplitude": 0.1, "springs": 64, "steps": 64, "error_bars": False}
+    cycles = cd.sweep(solid, SPHERE, angular_frequency=[0.1, 0.3, 1.0, 3.0, 10.0], **drive)  # type: ignore[arg-type]
+    data = {name: cycles[name] for name in ("angular_frequency_rad_per_s", "energy_loss_j", "approach_max_m")}
+    found = cd.identify(data, SPHERE, poisson_ratio=0.45, branches=1, mean=0.2, amplitude=0.1)
+    assert "argument `data`" in dict(found._files)["resolved.toml"].decode()
 
 
 def test_options_without_effect_warn() -> None:
@@ -200,6 +227,30 @@ def test_options_are_in_the_signatures_that_notebooks_complete() -> None:
         assert {"overrides", "cells", "layer", "title", "progress"} <= set(named)
         with pytest.raises(ValueError):  # and not the TypeError of an argument that does not exist
             overloaded(**{name: object() for name in named if name not in ("overrides", "segments", "threads", "progress")})
+
+
+def test_signatures_and_help_have_every_key_with_its_default() -> None:
+    def defaults(call: Callable[..., object]) -> dict[str, object]:
+        return {name: each.default for name, each in inspect.signature(call).parameters.items()}
+
+    swept, found = defaults(cd.sweep), defaults(cd.identify)
+    keys = {"control", "mean", "amplitude", "phase", "hold", "angular_frequency", "frequency", "pairs", "refine", "steps", "method"}
+    keys |= {"tolerance", "max_cycles", "at_cycle", "error_bars", "accuracy", "engine", "cells", "springs", "solver_tolerance", "time_rule"}
+    assert keys | {"indenter_material", "layer", "adhesion", "axes", "title", "threads", "progress", "overrides"} < set(swept)
+    assert (swept["control"], swept["steps"], swept["tolerance"], swept["springs"], swept["method"]) == ("load", 200, 1e-4, 400, "direct")
+    # The model of an identification is coarser.
+    assert (found["steps"], found["springs"], found["cells"], found["error_bars"]) == (64, 64, 32, False)
+    assert {"segments", "step", "profiles_at", "fields_at", "field_cells", "springs"} < set(defaults(cd.simulate))
+    for call in (cd.sweep, cd.simulate, cd.identify):
+        for name in inspect.signature(call).parameters:
+            assert re.search(rf"\n    {name}: \S", str(call.__doc__)), name
+    assert "poisson_ratio: Poisson ratio" in str(cd.Material.zener.__doc__) and "radius: Radius" in str(cd.Sphere.__init__.__doc__)
+    assert list(defaults(cd.Sphere)) == ["radius", "offset"] and defaults(cd.Material.maxwell)["bulk_modulus"] is None
+
+
+def test_a_default_that_is_given_is_the_default() -> None:
+    given = small_sweep(method="direct", tolerance=1e-4, control="load", engine="axisymmetric", pairs=None)
+    assert given.resolved == small_sweep().resolved
 
 
 def test_a_star_leaves_the_warning_of_python_where_it_is() -> None:

@@ -18,7 +18,7 @@ PMMA = cd.Material.library("pmma")
 
 def held(**options: object) -> cd.HistoryResult:
     segments = [{"kind": "step", "to": "10 N", "duration": "200 s"}]
-    result = cd.simulate(PMMA, cd.Sphere("10 mm"), segments=segments, **{"springs": 64, **options})  # type: ignore[call-overload]
+    result = cd.simulate(PMMA, cd.Sphere("10 mm"), segments=segments, **{"springs": 64, **options})  # type: ignore[arg-type]
     assert isinstance(result, cd.HistoryResult)
     return result
 

@@ -10,6 +10,7 @@ import sys
 import threading
 import time
 from pathlib import Path
+from typing import Any
 
 import distributed
 import joblib
@@ -135,10 +136,10 @@ def test_other_threads_of_python_run_meanwhile() -> None:
 
 def test_a_thousand_calls_of_one_case_take_less_than_five_seconds() -> None:
     pmma = cd.Material.library("pmma")
-    options = {"mean": 10.0, "amplitude": 5.0, "angular_frequency": [1e-2], "springs": 16, "steps": 16}
+    options: dict[str, Any] = {"mean": 10.0, "amplitude": 5.0, "angular_frequency": [1e-2], "springs": 16, "steps": 16}
     started = time.process_time()
     for _ in range(1000):
-        cd.sweep(pmma, SPHERE, threads=1, error_bars=False, **options)  # type: ignore[call-overload]
+        cd.sweep(pmma, SPHERE, threads=1, error_bars=False, **options)
     elapsed = time.process_time() - started
     print(f"\n1000 calls: {elapsed:.2f} s of one core")
     assert elapsed < 5.0
@@ -148,11 +149,11 @@ def test_a_call_costs_less_than_a_millisecond_beyond_its_solution() -> None:
     pmma = cd.Material.library("pmma")
 
     def shortest(omega: list[float], calls: int) -> float:
-        options = {"mean": 10.0, "amplitude": 5.0, "angular_frequency": omega, "springs": 16, "steps": 16}
+        options: dict[str, Any] = {"mean": 10.0, "amplitude": 5.0, "angular_frequency": omega, "springs": 16, "steps": 16}
         times = []
         for _ in range(calls):
             started = time.perf_counter()
-            cd.sweep(pmma, SPHERE, threads=1, error_bars=False, **options)  # type: ignore[call-overload]
+            cd.sweep(pmma, SPHERE, threads=1, error_bars=False, **options)
             times.append(time.perf_counter() - started)
         return min(times)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import html
 import io
 import pickle
@@ -12,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 import tqdm
 from conftest import ROOT, small_sweep
@@ -189,6 +191,24 @@ def test_peaks_say_which_columns_vary() -> None:
     assert small_sweep(error_bars=False).peaks[0].varied_columns == ()
 
 
+def test_records_are_values_that_dataclasses_and_pandas_take(result: cd.SweepResult) -> None:
+    (peak,) = result.peaks
+    assert peak == pickle.loads(pickle.dumps(peak)) and hash(peak) == hash(result.peaks[0])
+    assert peak.frequency == pytest.approx(peak.angular_frequency / (2 * np.pi), rel=1e-15)
+    assert dataclasses.asdict(peak)["energy_loss"] == peak.energy_loss  # type: ignore[call-overload]
+    frame = pd.DataFrame([peak])
+    assert frame["energy_loss"][0] == peak.energy_loss and list(frame)[0] == "angular_frequency"
+    assert cd.Status("failed", "why") != cd.Status("failed") and str(cd.Status("failed", "why")) == "failed: why"
+    assert repr(cd.Status("failed")) == "Status(name='failed', reason=None)"
+    cycle = result.cycles[0]
+    again = pickle.loads(pickle.dumps(cycle))
+    assert again == cycle and again.profiles[0].lines[0] == cycle.profiles[0].lines[0]
+    with pytest.raises(TypeError, match="unhashable"):
+        hash(cycle)
+    with pytest.raises(AttributeError):
+        peak.energy_loss = 0.0  # type: ignore[misc]
+
+
 def test_warnings_of_cases_are_seen_where_a_result_is_shown(result: cd.SweepResult) -> None:
     steep = small_sweep(mean="100 kN", amplitude="1 kN", angular_frequency=[0.01], error_bars=False)
     (warning,) = (each for each in steep.warnings[0] if each.code == "steep-slope")
@@ -315,9 +335,9 @@ def test_a_map_of_an_array_is_used_saved_read_and_pickled(tmp_path: Path, progra
     heights = -(x**2 + x[:, None] ** 2) / (2 * 10e-3)
     map = cd.HeightMap(heights, spacing=x[1] - x[0])
     assert not map.gaps.flags.writeable and map.gaps.base is not None
-    options = {"mean": 10.0, "amplitude": 5.0, "angular_frequency": [0.01, 0.02], "steps": 16, "error_bars": False}
-    result = cd.sweep(cd.Material.library("pmma"), map, **options)  # type: ignore[call-overload]
-    sphere = cd.sweep(cd.Material.library("pmma"), cd.Sphere("10 mm"), **options)  # type: ignore[call-overload]
+    options: dict[str, Any] = {"mean": 10.0, "amplitude": 5.0, "angular_frequency": [0.01, 0.02], "steps": 16, "error_bars": False}
+    result = cd.sweep(cd.Material.library("pmma"), map, **options)
+    sphere = cd.sweep(cd.Material.library("pmma"), cd.Sphere("10 mm"), **options)
     # Seventeen cells across the contact: two per cent of the loss, measured 0.7 %.
     assert result["energy_loss_j"] == pytest.approx(sphere["energy_loss_j"], rel=0.02)
     result.save(tmp_path / "map")

@@ -17,6 +17,8 @@ MATERIALS = [
     cd.Material.creep(1e-9, [(5e-10, 10.0)], poisson_ratio=0.3, compliance="shear"),
     cd.Material.zener("1 MPa", "2 MPa", "1 s", poisson_ratio=0.5),
     cd.Material.relaxation("2 MPa", [("8 MPa", "1 s")], bulk_modulus="30 MPa", modulus="shear"),
+    cd.Material.zener("1 MPa", "2 MPa", "1 s", bulk_modulus="30 MPa", measured=("1 ms", "10 s"), name="standard"),
+    cd.Material.maxwell("1 MPa", "1 s", bulk_modulus="30 MPa", measured=("1 ms", "10 s")),
     cd.Material.relaxation("2 MPa", [("8 MPa", "1 s")], bulk_modulus=(30e6, [("10 MPa", "3 s")]), modulus="shear"),
 ]
 INDENTERS = [
@@ -47,6 +49,22 @@ def test_functions_of_a_prony_series_are_its_closed_forms() -> None:
     assert rubber.prony.equilibrium == 2e6 and rubber.prony.times.tolist() == [1e-3, 0.1]
     j = MATERIALS[2].creep_compliance(t, modulus="shear")
     assert np.allclose(j, 1e-9 + 5e-10 * (1 - np.exp(-t / 10)), rtol=1e-13)
+
+
+def test_a_kelvin_voigt_body_is_its_spring_and_dashpot() -> None:
+    # G* = G (1 + i omega t), and E = 2 (1 + nu) G; without instantaneous compliance it has no series of its modulus.
+    voigt = cd.Material.kelvin_voigt("1 MPa", "2 s", poisson_ratio=0.4)
+    assert voigt.complex_modulus(3.0) == pytest.approx(2 * 1.4 * 1e6 * (1 + 6j), rel=1e-12)
+    with pytest.raises(ValueError):
+        voigt.prony
+    with pytest.raises(TypeError, match="Material.kelvin_voigt, .*Material.from_toml"):
+        cd.Material()
+
+
+def test_samples_go_with_a_bulk_modulus() -> None:
+    t = np.logspace(-1, 3, 60)
+    solid = cd.Material.table(t, 1e6 + 2e6 * np.exp(-t / 10), quantity="relaxation", modulus="shear", bulk_modulus="30 MPa")
+    assert solid.bulk_modulus == 30e6 and solid.poisson_ratio is None
 
 
 @pytest.mark.parametrize("material", MATERIALS, ids=repr)

@@ -21,7 +21,7 @@ pub(super) struct RenewFlags {
 }
 
 /// The only generated file that takes more than this program.
-const STUBS: &str = "The stubs of the Python package are python/stubs.sh's, which wants maturin.\n";
+const STUBS: &str = "The stubs of the compiled module of the Python package are python/stubs.sh's, which wants maturin.\n";
 
 /// Runs the command; `program` is the command line, with all commands that the help shows.
 pub(super) fn run(flags: &RenewFlags, program: &clap::Command) -> Result<Ended, Failure> {

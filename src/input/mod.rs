@@ -57,6 +57,7 @@ mod material_temperature;
 mod measured_history;
 mod measured_table;
 mod points;
+pub mod python_calls;
 pub mod scenario_file;
 pub mod schema;
 pub(crate) mod segments_block;

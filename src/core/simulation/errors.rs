@@ -8,13 +8,15 @@
 
 use std::collections::HashMap;
 
+use serde::{Deserialize, Serialize};
+
 use crate::drive::Fineness;
 use crate::engine::{EngineKind, SolverPlan};
 use crate::simulation::HistoryRow;
 use crate::sweep::record::error_bars::{Pair, ROUNDING, Refinements, SAFETY};
 
 /// Estimated errors of a row, absolute; `None` where the value is undefined or the estimate is missing.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct RowErrors {
     pub load_n: Option<f64>,
     pub approach_m: Option<f64>,

@@ -82,7 +82,7 @@ pub struct SurfaceRecord {
 }
 
 /// What a simulation came to.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SimulationOutcome {
     /// One row per moment; two with the same time at a jump.
     pub rows: Vec<HistoryRow>,
@@ -105,7 +105,7 @@ pub struct SimulationOutcome {
 }
 
 /// How a simulation ended.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum SimulationEnd {
     Done,
     /// It was stopped from outside.

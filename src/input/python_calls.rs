@@ -1,0 +1,475 @@
+//! The functions of the Python package whose arguments are keys of the input files: their signatures and what every argument means, from the
+//! tables of keys. The package makes its functions of them where it is imported, `contact-dma renew` the stubs that type checkers read.
+
+mod stubs;
+
+use serde_json::{Value as Json, json};
+
+use super::document::kind::json_of;
+use super::keys::{self, FileKind};
+use crate::identify::IdentifyPlan;
+use crate::material::ModulusKind;
+use crate::quantity::block::{Block, Word};
+use crate::quantity::key::{Key, Kind};
+use crate::quantity::rows::{Branch, Rows};
+use crate::sweep::plan::CyclePlan;
+use stubs::annotation;
+pub use stubs::stubs;
+
+/// A function, a constructor of a material, or the arguments of a class of indenters.
+pub struct Call {
+    /// In Python: `sweep`, `zener`, `FlatPunch`.
+    pub name: String,
+    pub of: CallOf,
+    /// What it makes; empty for a function.
+    pub about: &'static str,
+    /// Arguments that may be given by their places; the others have names.
+    pub positional: usize,
+    pub arguments: Vec<Argument>,
+}
+
+/// Where a call belongs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CallOf {
+    Module,
+    Material,
+    Indenter,
+}
+
+/// An argument.
+pub struct Argument {
+    pub name: &'static str,
+    /// The dotted key that it stands for; empty for what is no key.
+    pub key: String,
+    /// Its type, as Python writes it.
+    pub annotation: String,
+    /// What counts where it is left out; `None` where it must be there.
+    pub default: Option<Json>,
+    pub means: String,
+}
+
+/// Every call.
+pub fn calls() -> Vec<Call> {
+    let mut calls = vec![
+        function(
+            "sweep",
+            FileKind::Sweep,
+            &["drive", "sweep", "cycle", "solver"],
+        ),
+        function(
+            "simulate",
+            FileKind::Scenario,
+            &["drive", "time", "output", "solver"],
+        ),
+        function(
+            "identify",
+            FileKind::Identify,
+            &["identify", "material", "drive", "cycle", "solver"],
+        ),
+    ];
+    calls.extend(FORMS.iter().map(|form| material(*form)));
+    calls.extend(SHAPES.iter().map(|(shape, places)| indenter(shape, places)));
+    calls
+}
+
+/// Forms of material whose arguments are their keys, those that may be given by their places, and those that are no keys: data as arrays.
+const FORMS: [(&str, &[&str], &[Own]); 9] = [
+    ("elastic", &["modulus"], &[]),
+    ("relaxation", &["equilibrium", "branches"], &[]),
+    ("creep", &["instantaneous", "branches"], &[]),
+    ("maxwell", &["modulus", "time"], &[]),
+    ("zener", &["spring", "kelvin_spring", "time"], &[]),
+    ("kelvin_voigt", &["spring", "time"], &[]),
+    ("fractional", &["model"], &[]),
+    ("table", &["time", "values"], &SAMPLES),
+    ("dynamic", &["file"], &DYNAMIC),
+];
+
+/// Keys that name the data of a form; in Python these are arguments that are no keys.
+const DATA_KEYS: [&str; 4] = ["file", "files", "times", "values"];
+
+const SAMPLES: [Own; 2] = [
+    ("time", "ArrayLike", "Times (s), ascending."),
+    (
+        "values",
+        "ArrayLike",
+        "Compliances (1/Pa) or moduli (Pa) at these times.",
+    ),
+];
+
+const DYNAMIC: [Own; 7] = [
+    (
+        "file",
+        "str | PathLike[str] | Sequence[str | PathLike[str]] | TableLike | None",
+        "A file, or several; or a data frame or dictionary whose columns have the names of the arguments below (SI units), or names with \
+         units that a file may have, such as `\"Frequency (Hz)\"`.",
+    ),
+    (
+        "angular_frequency",
+        "ArrayLike | None",
+        "In place of a file: angular frequencies (rad/s).",
+    ),
+    (
+        "frequency",
+        "ArrayLike | None",
+        "Frequencies (Hz) in place of these.",
+    ),
+    (
+        "storage_modulus",
+        "ArrayLike | None",
+        "Storage moduli (Pa).",
+    ),
+    ("loss_modulus", "ArrayLike | None", "Loss moduli (Pa)."),
+    (
+        "tan_delta",
+        "ArrayLike | None",
+        "Loss factors in place of the loss moduli.",
+    ),
+    (
+        "temperature",
+        "ArrayLike | None",
+        "Temperatures (K, or strings such as `\"20 °C\"`) of several isotherms.",
+    ),
+];
+
+/// The same of shapes.
+const SHAPES: [(&str, &[&str]); 6] = [
+    ("sphere", &["radius"]),
+    ("cone", &["half_angle"]),
+    ("flat-punch", &["radius"]),
+    ("ellipsoid", &["radius_x", "radius_y"]),
+    ("power-law", &["exponent"]),
+    ("rough", &["cells"]),
+];
+
+/// Arguments that are no keys, or tables whose form in Python is another: name, type, meaning.
+type Own = (&'static str, &'static str, &'static str);
+
+const MATERIAL: Own = (
+    "material",
+    "Material | str | PathLike[str]",
+    "What the half-space is made of. Or a file, which says all, with `overrides`.",
+);
+/// Of a sweep, which may have several.
+const MATERIALS: Own = (
+    "material",
+    "Material | Mapping[str, Material] | str | PathLike[str]",
+    "What the half-space is made of; several by their names, `{\"dry\": dry, \"wet\": wet}`, are an axis. Or a file, which says all, \
+     with `overrides`.",
+);
+const INDENTERS: Own = (
+    "indenter",
+    "Indenter | Mapping[str, Indenter] | None",
+    "What is pressed into it; several by their names likewise.",
+);
+const INDENTER: Own = ("indenter", "Indenter | None", "What is pressed into it.");
+const DATA: Own = (
+    "data",
+    "str | PathLike[str] | TableLike | None",
+    "Measured cycles, with columns of a sweep and their errors where they are known: arrays by name, a data frame, a result of `analyse`, a \
+     CSV file, or a folder of `contact-dma analyse`. NaN or None where nothing was measured. Of a history `time_s` and `approach_m`, or \
+     `load_n` under a prescribed approach.",
+);
+const FILE: Own = (
+    "file",
+    "str | PathLike[str] | None",
+    "An identification file in place of all others, with `overrides`.",
+);
+const COMMON: [Own; 6] = [
+    (
+        "indenter_material",
+        "Material | str | None",
+        "What the indenter is made of, as a material or a name of the library; rigid where it is left out.",
+    ),
+    (
+        "layer",
+        "Mapping[str, Any] | None",
+        "Keys of a layer of the material on a base in place of the half-space, `{\"thickness\": \"0.5 mm\", \"base\": \"bonded\"}`.",
+    ),
+    (
+        "adhesion",
+        "Quantity | Mapping[str, Any] | None",
+        "Work of adhesion (J/m^2) of a sphere under a prescribed load, or the keys `{\"work\": ..., \"equilibrium_distance\": ...}`.",
+    ),
+    (
+        "overrides",
+        "Mapping[str, Any] | None",
+        "Changes of a file by their keys, `{\"cycle.steps\": 48}`; None removes a key.",
+    ),
+    (
+        "threads",
+        "int | None",
+        "How many; left out: as many as `CONTACT_DMA_THREADS`, `RAYON_NUM_THREADS` or `OMP_NUM_THREADS` say, and otherwise one per \
+         processor. Results do not depend on it.",
+    ),
+    (
+        "progress",
+        "Progress | Any | None",
+        "A function of what is done and what there is in all, or a bar of tqdm.",
+    ),
+];
+const AXES: Own = (
+    "axes",
+    "Mapping[str, Sequence[Quantity] | NDArray[Any]] | None",
+    "Other axes than the frequency, such as `{\"indenter.radius\": [\"5 mm\", \"10 mm\"], \"drive.amplitude\": [1.0, 2.0]}`.",
+);
+
+/// Arguments of materials that stand for tables, in the form that they have in Python: name, type, meaning.
+const AS_PYTHON: [Own; 2] = [
+    (
+        "branches",
+        "Sequence[tuple[Quantity, Quantity]]",
+        "The branches of the series: pairs of modulus (Pa) and relaxation time (s), of a creep series of compliance (1/Pa) and retardation \
+         time (s).",
+    ),
+    (
+        "bulk_modulus",
+        "BulkModulus | None",
+        "Bulk modulus (Pa) in place of the Poisson ratio: constant in time, or a pair of that at rest and a list of branches, pairs of \
+         modulus and time.",
+    ),
+];
+
+/// An argument that is no key.
+fn own((name, annotation, means): Own) -> Argument {
+    Argument {
+        name,
+        key: String::new(),
+        annotation: annotation.to_owned(),
+        default: annotation.ends_with("None").then_some(Json::Null),
+        means: means.to_owned(),
+    }
+}
+
+/// An argument for a key at a dotted path.
+fn of_key(path: &str, key: &Key) -> Argument {
+    // Moduli and compliances are longitudinal where nothing else is said.
+    let is_longitudinal = key.kind.words() == ModulusKind::WORDS;
+    let default = match (key.default(), key.is_required()) {
+        (None, true) => is_longitudinal.then(|| json!(ModulusKind::Longitudinal.word())),
+        (default, _) => default.as_ref().map(json_of).or(Some(Json::Null)),
+    };
+    Argument {
+        name: key.name,
+        key: match path {
+            "" => key.name.to_owned(),
+            path => format!("{path}.{}", key.name),
+        },
+        annotation: annotation(&key.kind),
+        default,
+        means: format!("{} {}.", key.means(), capital(&key.kind.expected())),
+    }
+}
+
+/// Makes an argument one that may be left out.
+fn optional(mut argument: Argument) -> Argument {
+    argument.default = argument.default.or(Some(Json::Null));
+    if !argument.annotation.ends_with("None") {
+        argument.annotation.push_str(" | None");
+    }
+    argument
+}
+
+/// A function of a kind of file: the keys of some of its tables, and what else it takes.
+fn function(name: &str, kind: FileKind, tables: &[&'static str]) -> Call {
+    let is_identify = kind == FileKind::Identify;
+    let first: &[Own] = match kind {
+        FileKind::Identify => &[DATA, INDENTER, FILE],
+        FileKind::Sweep => &[MATERIALS, INDENTERS],
+        FileKind::Scenario | FileKind::Setup => &[MATERIAL, INDENTER],
+    };
+    let mut arguments: Vec<Argument> = first.iter().map(|first| own(*first)).collect();
+    let positional = 2;
+    let all = kind.rows().all();
+    for table in tables {
+        let rows = all.iter().find(|row| row.name == *table);
+        let keys = rows.and_then(|row| row.kind.rows()).map(Rows::all);
+        for key in keys.unwrap_or_default() {
+            let is_own = matches!(key.kind, Kind::Axes(_)) || key.name == "data";
+            if !is_own {
+                let mut argument = optional(of_key(table, key));
+                if argument.key == "solver.tolerance" {
+                    argument.name = "solver_tolerance";
+                }
+                arguments.push(argument);
+            }
+        }
+    }
+    if is_identify {
+        model_defaults(&mut arguments);
+    }
+    let title = all.iter().find(|row| row.name == "title");
+    let title = title.map(|row| optional(of_key("", *row)));
+    let common = COMMON
+        .into_iter()
+        .filter(|own| !(is_identify && own.0 == "progress"));
+    arguments.extend(title.into_iter().chain(common.map(own)));
+    if kind == FileKind::Sweep {
+        arguments.push(own(AXES));
+    }
+    Call {
+        name: name.to_owned(),
+        of: CallOf::Module,
+        about: "",
+        positional,
+        arguments,
+    }
+}
+
+/// The model of an identification is coarser than a sweep.
+fn model_defaults(arguments: &mut [Argument]) {
+    let cycle = CyclePlan::KEYS.iter().zip(IdentifyPlan::CYCLE.values());
+    let cycle = cycle.filter_map(|(key, value)| Some((key.name, json_of(&value?))));
+    let solver = [
+        ("springs", json!(IdentifyPlan::SPRINGS)),
+        ("cells", json!(IdentifyPlan::CELLS)),
+    ];
+    for (name, default) in cycle.chain(solver) {
+        for argument in arguments
+            .iter_mut()
+            .filter(|argument| argument.name == name)
+        {
+            argument.default = Some(default.clone());
+        }
+    }
+}
+
+/// The ways to fill a table that a key, or a word under one, decides for.
+fn ways(table: &str, decides: &str) -> Vec<Branch> {
+    let branches = keys::tables_at(table).into_iter().map(Rows::branches);
+    let of = |branch: &Branch| {
+        let first = branch.decided_by.first();
+        first.is_some_and(|(key, word)| word.unwrap_or(key) == decides)
+    };
+    let branches = branches.map(|all| all.into_iter().filter(of).collect::<Vec<_>>());
+    branches.max_by_key(Vec::len).unwrap_or_default()
+}
+
+/// The keys that a table may have whatever else it has.
+fn own_keys_of(table: &str) -> Vec<&'static Key> {
+    let rows = keys::tables_at(table).into_iter().next();
+    rows.map(Rows::own).unwrap_or_default()
+}
+
+/// A constructor of a material: the keys of its form, and those beside it.
+fn material((form, places, data): (&'static str, &[&str], &[Own])) -> Call {
+    let ways = ways("material", form);
+    let everywhere = |row: &&Key| {
+        let has = |way: &Branch| way.keys.iter().any(|other| other.name == row.name);
+        ways.iter().all(has)
+    };
+    let path = format!("material.{form}");
+    let rows = keys::tables_at(&path).into_iter().next();
+    let own_keys = rows.map(Rows::all).unwrap_or_default().into_iter();
+    let own_keys = own_keys.filter(|row| data.is_empty() || !DATA_KEYS.contains(&row.name));
+    let mut arguments: Vec<Argument> = data.iter().map(|data| own(*data)).collect();
+    arguments.extend(own_keys.map(|row| of_key(&path, row)));
+    let mut beside = own_keys_of("material");
+    let mut about = "";
+    beside.extend(ways.iter().flat_map(|way| way.keys.iter().copied()));
+    for row in beside {
+        if row.name == form {
+            about = row.means();
+            continue;
+        }
+        let mut argument = of_key("material", row);
+        if form == "dynamic" && argument.name == "temperature" {
+            argument.name = "temperature_of_sweep";
+        }
+        if arguments.iter().all(|known| known.name != argument.name) {
+            arguments.push(match everywhere(&row) {
+                true => argument,
+                false => optional(argument),
+            });
+        }
+    }
+    for argument in arguments.iter_mut().filter(|_| form != "dynamic") {
+        if let Some((_, annotation, means)) = AS_PYTHON.iter().find(|own| own.0 == argument.name) {
+            (argument.annotation, argument.means) = ((*annotation).to_owned(), (*means).to_owned());
+        }
+    }
+    let name = if form == "dynamic" {
+        "from_dynamic"
+    } else {
+        form
+    };
+    call(
+        (name.to_owned(), CallOf::Material, about),
+        places,
+        arguments,
+    )
+}
+
+/// The arguments of a class of indenters: the keys of its shape, and where it stands.
+fn indenter(shape: &'static str, places: &[&str]) -> Call {
+    let ways = ways("indenter", shape);
+    let own = ways.iter().flat_map(|way| way.keys.iter().copied());
+    let beside = own_keys_of("indenter").into_iter();
+    let beside = beside.filter(|row| row.name == "offset");
+    let arguments = own.chain(beside).map(|row| of_key("indenter", row));
+    call(
+        (class(shape), CallOf::Indenter, ""),
+        places,
+        arguments.collect(),
+    )
+}
+
+/// A call with these arguments first, the others behind them in their order.
+fn call(
+    (name, of, about): (String, CallOf, &'static str),
+    places: &[&str],
+    arguments: Vec<Argument>,
+) -> Call {
+    let place = |argument: &Argument| {
+        let place = places.iter().position(|place| *place == argument.name);
+        place.unwrap_or(places.len())
+    };
+    let mut arguments = arguments;
+    arguments.sort_by_key(place);
+    for argument in &mut arguments {
+        if argument.default == Some(Json::Null) && !argument.annotation.ends_with("None") {
+            argument.annotation.push_str(" | None");
+        }
+    }
+    Call {
+        name,
+        of,
+        about,
+        positional: places.len(),
+        arguments,
+    }
+}
+
+/// The class of a shape: `FlatPunch` of `flat-punch`.
+pub fn class(shape: &str) -> String {
+    shape.split('-').map(capital).collect()
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().into_iter().flat_map(char::to_uppercase);
+    first.chain(letters).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_argument_is_one_key_and_those_by_their_places_come_first() {
+        for call in calls() {
+            let names: Vec<&str> = call.arguments.iter().map(|a| a.name).collect();
+            for (place, name) in names.iter().enumerate() {
+                assert!(
+                    !names[..place].contains(name),
+                    "{} has {name} twice",
+                    call.name
+                );
+            }
+            let required = |argument: &Argument| argument.default.is_none();
+            let by_place = call.arguments.iter().take(call.positional);
+            let optional = by_place.skip_while(|a| required(a)).filter(|a| required(a));
+            assert_eq!(optional.count(), 0, "{}", call.name);
+        }
+    }
+}
