@@ -44,10 +44,12 @@ def read(folder: str | os.PathLike[str]) -> SweepResult | HistoryResult | Analys
     if analysis.is_file() and not (path / "resolved.toml").exists():
         return AnalysisResult(analysis.read_bytes())
     if block.is_file() and (path / "fit.csv").is_file():
-        names = ["material.toml", "resolved.toml", "prony.csv", "fit.csv", "moduli.csv", "summary.json"]
+        names = ["material.toml", "resolved.toml", "prony.csv", "fit.csv", "moduli.csv", "summary.json", "figures.json"]
         files = [(name, (path / name).read_bytes()) for name in names if (path / name).is_file()]
         text = block.read_text(encoding="utf-8")
-        report = [line.removeprefix("# ") for line in text.splitlines() if line.startswith("# ")]
+        comments = [line.removeprefix("# ") for line in text.splitlines() if line.startswith("# ")]
+        # Below the title; what goes on in another line begins with blanks.
+        report = "\n".join(comments[1:]).replace("\n  ", " ").splitlines()
         return IdentifiedMaterial(text, report, files)
     if (path / "history.csv").is_file():
         return HistoryResult(StoredHistory(path))

@@ -197,7 +197,7 @@ class IdentifiedMaterial:
 
     def save(self, folder: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Writes the tables that ``contact-dma identify`` writes: ``material.toml``, ``prony.csv``, ``fit.csv``, ``moduli.csv``,
-        ``summary.json``, ``resolved.toml``.
+        ``summary.json``, ``resolved.toml``; ``contact-dma report FOLDER`` draws figures and page.
 
         Args:
             folder: a new or empty folder, or one of an identification.

@@ -11,9 +11,11 @@ use contact_dma::input::document::Document;
 use contact_dma::input::{identify_file, loop_file, setup_file};
 use contact_dma::measured::{Options, Signal};
 use contact_dma::quantity::{Dimension, parse};
+use contact_dma::report::ReportError;
 use contact_dma::report::identify::IdentifyReport;
+use contact_dma::report::kept_figures::{KEPT, KeptFigures};
 use contact_dma::report::measured::{Analysis, MeasuredRow, columns, files, ordered};
-use contact_dma::sweep::plan::resolved::material_text;
+use contact_dma::sweep::plan::figures::FigurePlan;
 use contact_dma::sweep::search::run::{pool, useful_threads};
 use contact_dma::sweep::store::manifest::{Kind, Target};
 use numpy::{IntoPyArray, PyReadonlyArray1};
@@ -112,7 +114,8 @@ impl Loops {
     }
 
     fn _files<'py>(&self, py: Python<'py>) -> PyResult<Files<'py>> {
-        Ok(bytes(py, files(&self.0).map_err(failure::of_run)?))
+        let files = files(&self.0).map_err(failure::of_run)?;
+        with_figures(py, files, KeptFigures::of_loops(&self.0))
     }
 
     #[pyo3(signature = () -> "tuple[Any, tuple[Any, ...]]")]
@@ -191,6 +194,19 @@ fn row(record: RecordSource, options: &Options) -> Result<MeasuredRow, Diagnosti
     Ok(MeasuredRow::of(file, &signal, options))
 }
 
+/// Files of a folder with those of its figures, which `contact-dma report` draws.
+fn with_figures<'py, N: Into<String>>(
+    py: Python<'py>,
+    files: Vec<(N, Vec<u8>)>,
+    kept: Result<(KeptFigures, Vec<String>), ReportError>,
+) -> PyResult<Files<'py>> {
+    let (mut kept, _) = kept.map_err(|error| failure::of_report(&error))?;
+    let kept = kept.to_json(&FigurePlan::default());
+    let mut files = bytes(py, files);
+    files.extend(bytes(py, vec![(KEPT, kept.map_err(failure::of_run)?)]));
+    Ok(files)
+}
+
 pub fn bytes<N: Into<String>>(py: Python<'_>, files: Vec<(N, Vec<u8>)>) -> Files<'_> {
     let files = files.into_iter();
     files
@@ -227,10 +243,10 @@ pub fn identify_material<'py>(
         found: &found,
         curves: &curves,
     };
-    let material = plan.material_of(&found).map_err(failure::of_run)?;
-    let block = material_text(&material);
-    let files = report.files(&block);
-    Ok((block, report.lines(), bytes(py, files)))
+    let block = report.block().map_err(failure::of_run)?;
+    let kept = KeptFigures::of_identification(&report, &block);
+    let files = with_figures(py, report.files(&block), kept)?;
+    Ok((block, report.lines(), files))
 }
 
 /// A number with its unit, in the SI unit of the quantity that is expected. Frequencies in Hz and in rad/s are read as one another.

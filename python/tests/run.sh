@@ -25,7 +25,7 @@ cmp LICENSE-APACHE python/licenses/LICENSE-APACHE
 (
     export CARGO_TARGET_DIR="$target" PATH="$work/venv/bin:$PATH"
     # With what the stubs are written from, so that one build does for both.
-    maturin build --quiet --profile dev --features stubs --manifest-path python/Cargo.toml \
+    maturin build --quiet --strip --profile dev --features stubs --manifest-path python/Cargo.toml \
         --interpreter "$python" --out "$work/wheels"
     python/stubs.sh --check --profile dev --interpreter "$python"
 )

@@ -6,9 +6,9 @@ import dataclasses
 import html
 import io
 import pickle
-import time
 import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +19,8 @@ import tqdm
 from conftest import ROOT, small_sweep
 
 import contact_dma as cd
+from contact_dma import sweeps
+from contact_dma._sources import Source, source_of_values
 
 COARSE = {"solver.springs": 32, "cycle.steps": 32}
 TABLES = ["sweep.csv", "summary.json", "resolved.toml", "cycles.npz", "loops/0.csv", "pressures/1.csv", "work/2.csv"]
@@ -272,22 +274,34 @@ def test_titles_with_line_ends_and_headers_come_back_from_a_pickle(tmp_path: Pat
     assert again == result and again.title == result.title == "a\n[indenter]\nb"
 
 
-def test_a_thousand_named_materials_and_their_cycles_cost_what_so_many_cases_cost() -> None:
+def test_a_thousand_named_materials_are_one_document_and_their_cycles_are_asked_for_once_each(monkeypatch: pytest.MonkeyPatch) -> None:
     options: dict[str, Any] = {"mean": 10.0, "amplitude": 5.0, "angular_frequency": [0.01], "springs": 10, "steps": 8, "error_bars": False}
+    sources: list[Source] = []
 
-    def elapsed(count: int) -> tuple[float, float]:
-        """Of the sweep, and of visiting its cycles (s of one processor)."""
-        materials = {f"m{k}": cd.Material.zener(1e6 + k, "2 MPa", "1 s", poisson_ratio=0.5) for k in range(count)}
-        started = time.process_time()
-        result = cd.sweep(materials, cd.Sphere("10 mm"), threads=1, **options)
-        between = time.process_time()
-        assert sum(len(cycle.load) > 0 for cycle in result.cycles) == count == len(set(result["material"]))
-        assert len(result.title) < 100 and len(repr(result)) < 200
-        return between - started, time.process_time() - between
+    def noted(*given: Any, **named: Any) -> Source:
+        sources.append(source_of_values(*given, **named))
+        return sources[-1]
 
-    (few, few_cycles), (many, many_cycles) = elapsed(250), elapsed(1000)
-    # Four times as much; if either loop were quadratic, sixteen times.
-    assert many < 8 * few and many_cycles < 8 * few_cycles, (few, many, few_cycles, many_cycles)
+    monkeypatch.setattr(sweeps, "source_of_values", noted)
+    materials = {f"m{k}": cd.Material.zener(1e6 + k, "2 MPa", "1 s", poisson_ratio=0.5) for k in range(1000)}
+    result = cd.sweep(materials, cd.Sphere("10 mm"), **options)
+    # A change of a document reads it anew: one for each name were quadratic.
+    assert [len(source.set) for source in sources] == [0] and len(set(result["material"])) == 1000
+    assert len(result.title) < 100 and len(repr(result)) < 200
+
+    asked: Counter[str] = Counter()
+
+    class Watched:
+        """The result, which counts what it is asked for."""
+
+        def __getattr__(self, name: str) -> Any:
+            asked[name] += 1
+            return getattr(result, name)
+
+    watched: Any = Watched()
+    assert sum(len(cycle.load) > 0 for cycle in cd.Cycles(watched)) == 1000
+    # Anything of all cases, such as their statuses, asked for at every cycle were quadratic too.
+    assert set(asked) == {"_cases", "_cycle"} and asked["_cycle"] == 1000
 
 
 def test_progress_is_told_and_an_exception_of_it_stops_the_sweep() -> None:

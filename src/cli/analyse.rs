@@ -12,20 +12,19 @@ use serde_json::json;
 use super::documents::{read_bytes, read_document};
 use super::failure::{Ended, Failure};
 use super::flags::{WorkFlags, folder};
-use super::folders::write_result;
+use super::folders::write_kept;
 use super::interruption;
 use super::output::{OutputFormat, read_json, say_quietly, tell};
 use crate::input::loop_file;
 use crate::input::setup_file::{self, Setup};
 use crate::measured::Options;
 use crate::quantity::{Dimension, parse};
-use crate::report::caption::Setting as CaptionSetting;
 use crate::report::comparison;
 use crate::report::kept_figures::KeptFigures;
+use crate::report::machine;
 use crate::report::measured::{
     self, ANALYSIS, Analysis, Computed, MeasuredRow, columns, ordered, text,
 };
-use crate::report::{figure, machine, page};
 use crate::sweep::record::Status;
 use crate::sweep::search::run;
 use crate::sweep::store::manifest::{Kind, Target};
@@ -121,12 +120,9 @@ pub(super) fn run(flags: &AnalyseFlags, format: OutputFormat) -> Result<Ended, F
         rows: ordered(rows),
         computed: computed.unwrap_or_default(),
     };
-    let figures = figure::measured::figures(&analysis);
-    let drawn = (&figures[..], &CaptionSetting::default(), !flags.no_figures);
     let files = measured::files(&analysis).map_err(Failure::run)?;
-    write_result(&target, files, drawn, |pictures, _| {
-        page::measured::page(&analysis, &figures, pictures)
-    })?;
+    let kept = KeptFigures::of_loops(&analysis)?;
+    write_kept(&target, files, kept, !flags.no_figures)?;
     told(&flags.out, &analysis, (flags.work.quiet, format))
 }
 
@@ -174,15 +170,6 @@ pub(super) fn stored(folder: &Path) -> Result<Analysis, Failure> {
             path.display()
         ))
     })
-}
-
-/// Its figures and page.
-pub(super) fn figures(analysis: &Analysis) -> Result<KeptFigures, Failure> {
-    let figures = figure::measured::figures(analysis);
-    let (kept, _) = KeptFigures::of(&figures, &CaptionSetting::default(), |pictures| {
-        page::measured::page(analysis, &figures, pictures)
-    })?;
-    Ok(kept)
 }
 
 /// The cases of a computed sweep, with their cycles.

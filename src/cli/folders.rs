@@ -60,18 +60,22 @@ pub(super) fn write_result<N: Into<String>>(
     (figures, setting, drawn): (&[Figure], &Setting, bool),
     page: impl FnOnce(&Pictures, &str) -> Result<String, ReportError>,
 ) -> Result<(), Failure> {
-    let files = Files::of(result);
-    let (kept, mut left_out) =
-        KeptFigures::of(figures, setting, |pictures| match figures.first() {
-            Some(first) => page(pictures, first.name),
-            None => Ok(String::new()),
-        })?;
-    left_out.extend(write_figures(
-        target,
-        (kept, drawn),
-        &FigurePlan::default(),
-        files,
-    )?);
+    let kept = KeptFigures::of(figures, setting, |pictures| match figures.first() {
+        Some(first) => page(pictures, first.name),
+        None => Ok(String::new()),
+    })?;
+    write_kept(target, result, kept, drawn)
+}
+
+/// Writes the files of a result and its figures, drawn or not, and says what was left out and why.
+pub(super) fn write_kept<N: Into<String>>(
+    target: &Target<'_>,
+    result: impl IntoIterator<Item = (N, Vec<u8>)>,
+    (kept, mut left_out): (KeptFigures, Vec<String>),
+    drawn: bool,
+) -> Result<(), Failure> {
+    let (figures, plan) = ((kept, drawn), FigurePlan::default());
+    left_out.extend(write_figures(target, figures, &plan, Files::of(result))?);
     left_out.iter().for_each(|reason| warn(reason));
     Ok(())
 }

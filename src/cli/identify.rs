@@ -7,16 +7,14 @@ use clap::Args;
 
 use super::failure::{Ended, Failure};
 use super::flags::RunFlags;
-use super::folders::{folder_of, in_folder, write_result};
+use super::folders::{folder_of, in_folder, write_kept};
 use super::output::{OutputFormat, tell};
 use super::{interruption, meant_for};
 use crate::identify::{IdentifyError, curves, identify};
 use crate::input::identify_file;
-use crate::report::caption::Setting;
 use crate::report::identify::{IdentifyReport, summary};
+use crate::report::kept_figures::KeptFigures;
 use crate::report::text::Text;
-use crate::report::{figure, page};
-use crate::sweep::plan::resolved;
 use crate::sweep::search::run;
 use crate::sweep::store::manifest::{Kind, Target};
 
@@ -64,12 +62,9 @@ pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, 
         found: &found,
         curves: &curves,
     };
-    let block = block(&report)?;
-    let figures = figure::identify::figures(&report);
-    let drawn = (&figures[..], &Setting::default(), !flags.no_figures);
-    write_result(&target, report.files(&block), drawn, |pictures, _| {
-        page::identify::page(&report, &figures, &block, pictures)
-    })?;
+    let block = report.block().map_err(Failure::run)?;
+    let kept = KeptFigures::of_identification(&report, &block)?;
+    write_kept(&target, report.files(&block), kept, !flags.no_figures)?;
     let found = || {
         let mut value = summary::summary(&report);
         value["material_toml"] = block.as_str().into();
@@ -93,15 +88,4 @@ fn refused(file: &Path, error: &IdentifyError) -> Failure {
         }
         _ => Failure::Input(message),
     }
-}
-
-/// The material block of a sweep file, every number exact, with where it comes from.
-fn block(report: &IdentifyReport<'_>) -> Result<String, Failure> {
-    let mut text = Text::from(report.plan.title.as_str());
-    text.append(report.text());
-    let material = report
-        .plan
-        .material_of(report.found)
-        .map_err(Failure::run)?;
-    Ok(text.as_comments() + &resolved::material_text(&material))
 }

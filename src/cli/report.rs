@@ -156,8 +156,8 @@ fn figures(flags: &ReportFlags, kind: Kind, format: OutputFormat) -> Result<Ende
         true => KeptFigures::read(&read_bytes(&path, MAX_BYTES)?).map_err(|error| {
             Failure::input(format!("{name} holds no figures of this program: {error}"))
         })?,
-        // Without it an analysis that was saved from Python has everything that its figures show.
-        false if kind == Kind::Analysis => analyse::figures(&analyse::stored(folder)?)?,
+        // Without it an analysis, as earlier versions saved it from Python, has everything that its figures show.
+        false if kind == Kind::Analysis => KeptFigures::of_loops(&analyse::stored(folder)?)?.0,
         false => return Err(without_figures(flags, kind)),
     };
     let asked = figure_plan(&name, kept.asked(), &flags.set)?;

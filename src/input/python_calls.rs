@@ -299,7 +299,7 @@ fn function(name: &str, kind: FileKind, tables: &[&'static str]) -> Call {
         model_defaults(&mut arguments);
     }
     let title = all.iter().find(|row| row.name == "title");
-    let title = title.map(|row| optional(of_key("", *row)));
+    let title = title.map(|row| optional(of_key("", row)));
     let common = COMMON
         .into_iter()
         .filter(|own| !(is_identify && own.0 == "progress"));

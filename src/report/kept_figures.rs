@@ -7,8 +7,10 @@ use serde::{Deserialize, Serialize};
 use super::ReportError;
 use super::caption::Setting;
 use super::figure::press::{Files, Press};
-use super::figure::{Figure, Picture};
-use super::page::Pictures;
+use super::figure::{self, Figure, Picture};
+use super::identify::IdentifyReport;
+use super::measured::Analysis;
+use super::page::{self, Pictures};
 use crate::sweep::plan::figures::FigurePlan;
 use crate::sweep::store::files::{CAPTION, PICTURES};
 
@@ -48,6 +50,41 @@ pub enum KeptError {
 }
 
 impl KeptFigures {
+    /// Those of measured loops, with a page where there are any. A figure that cannot be drawn is left out: why is returned.
+    ///
+    /// # Errors
+    /// [`ReportError`] naming the page.
+    pub fn of_loops(analysis: &Analysis) -> Result<(Self, Vec<String>), ReportError> {
+        let figures = figure::measured::figures(analysis);
+        Self::of(
+            &figures,
+            &Setting::default(),
+            |pictures| match &figures[..] {
+                [] => Ok(String::new()),
+                figures => page::measured::page(analysis, figures, pictures),
+            },
+        )
+    }
+
+    /// The same of an identification, whose material has this block.
+    ///
+    /// # Errors
+    /// [`ReportError`] naming the page.
+    pub fn of_identification(
+        report: &IdentifyReport<'_>,
+        block: &str,
+    ) -> Result<(Self, Vec<String>), ReportError> {
+        let figures = figure::identify::figures(report);
+        Self::of(
+            &figures,
+            &Setting::default(),
+            |pictures| match &figures[..] {
+                [] => Ok(String::new()),
+                figures => page::identify::page(report, figures, block, pictures),
+            },
+        )
+    }
+
     /// These figures, and the page that is made of their pictures, empty where there is none. A figure that cannot be drawn is left
     /// out: why is returned.
     ///

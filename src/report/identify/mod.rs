@@ -8,6 +8,7 @@ use crate::identify::resolved::resolved_text;
 use crate::identify::{
     CellError, Curve, Identified, IdentifyPlan, Knowledge, MOST_BRANCHES, Unknown,
 };
+use crate::material::MaterialError;
 use crate::quantity::{Dimension, format_human};
 use crate::report::dynamic::tables::prony;
 use crate::report::measured::columns::of_records;
@@ -15,6 +16,7 @@ use crate::report::number::scientific;
 use crate::report::quantities;
 use crate::report::text::{Column, Table, Text};
 use crate::report::words::listed;
+use crate::sweep::plan::resolved::material_text;
 
 /// An identification and what it came to.
 pub struct IdentifyReport<'a> {
@@ -36,6 +38,17 @@ impl IdentifyReport<'_> {
             ("moduli.csv", tables::moduli(self)),
             ("summary.json", summary.into()),
         ]
+    }
+
+    /// The `[material]` block of a sweep file, every number exact, below title and findings as comments.
+    ///
+    /// # Errors
+    /// A series that is no material.
+    pub fn block(&self) -> Result<String, MaterialError> {
+        let mut text = Text::from(self.plan.title.as_str());
+        text.append(self.text());
+        let material = self.plan.material_of(self.found)?;
+        Ok(text.as_comments() + &material_text(&material))
     }
 
     /// What was found.
