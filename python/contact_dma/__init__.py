@@ -23,58 +23,15 @@ from ._result import Warning as Warning  # Not in __all__: a star would put it i
 from .fits import MaterialFit
 from .folders import read
 from .histories import Field, HistoryResult, SurfaceLine, SurfaceProfile, simulate
-from .indenters import (
-    Asperities,
-    Cone,
-    Ellipsoid,
-    FlatPunch,
-    HeightMap,
-    Indenter,
-    PowerLaw,
-    Profile,
-    Rough,
-    Sphere,
-)
+from .indenters import Asperities, Cone, Ellipsoid, FlatPunch, HeightMap, Indenter, PowerLaw, Profile, Rough, Sphere
 from .materials import Material, Prony, Quantity, library_materials
 from .measurements import AnalysisResult, IdentifiedMaterial, MeasuredCycle, analyse, identify
 from .sweeps import Cycle, Cycles, Peak, PressureLine, PressureProfile, SweepResult, sweep
 
 __all__ = [
-    "AnalysisResult",
-    "Asperities",
-    "Cone",
-    "ContactDmaWarning",
-    "Cycle",
-    "Cycles",
-    "Ellipsoid",
-    "Field",
-    "FlatPunch",
-    "HeightMap",
-    "HistoryResult",
-    "IdentifiedMaterial",
-    "Indenter",
-    "Material",
-    "MaterialFit",
-    "MeasuredCycle",
-    "Peak",
-    "PowerLaw",
-    "PressureLine",
-    "PressureProfile",
-    "Profile",
-    "Prony",
-    "Quantity",
-    "Rough",
-    "Sphere",
-    "Status",
-    "SurfaceLine",
-    "SurfaceProfile",
-    "SweepResult",
-    "Table",
-    "__version__",
-    "analyse",
-    "identify",
-    "library_materials",
-    "read",
-    "simulate",
-    "sweep",
+    "AnalysisResult", "Asperities", "Cone", "ContactDmaWarning", "Cycle", "Cycles", "Ellipsoid", "Field", "FlatPunch",
+    "HeightMap", "HistoryResult", "IdentifiedMaterial", "Indenter", "Material", "MaterialFit", "MeasuredCycle", "Peak",
+    "PowerLaw", "PressureLine", "PressureProfile", "Profile", "Prony", "Quantity", "Rough", "Sphere", "Status",
+    "SurfaceLine", "SurfaceProfile", "SweepResult", "Table", "__version__", "analyse", "identify", "library_materials",
+    "read", "simulate", "sweep",
 ]

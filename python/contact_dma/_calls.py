@@ -77,11 +77,11 @@ def _form(name, about, positional, arguments):
     return classmethod(made)
 
 
-def _shape(name, _, positional, arguments):
+def _shape(name, about, positional, arguments):
     word = re.sub("(?<!^)(?=[A-Z])", "-", name).lower()
     made = _made("__init__", positional, arguments, lambda keys, self: self._made_of(word, keys), "self")
     _public(made, "{arguments}", arguments)
-    return type(name, (), {"__slots__": (), "__init__": made})
+    return type(name, (), {"__slots__": (), "__init__": made, "__doc__": about})
 
 
 _CALLS = _core.calls()

@@ -440,7 +440,7 @@ class Sphere:
         *,
         offset: ArrayLike | None = None,
     ) -> None:
-        """
+        """A sphere, as the paraboloid of its radius.
         Args:
             radius: Radius. A length above zero.
             offset: Moves the indenter along x and y. An array of two, each a length.
@@ -453,7 +453,7 @@ class Cone:
         *,
         offset: ArrayLike | None = None,
     ) -> None:
-        """
+        """A cone.
         Args:
             half_angle: Angle between axis and flank; 90 deg is a plane. An angle above zero.
             offset: Moves the indenter along x and y. An array of two, each a length.
@@ -466,7 +466,7 @@ class FlatPunch:
         *,
         offset: ArrayLike | None = None,
     ) -> None:
-        """
+        """A flat cylindrical punch.
         Args:
             radius: Radius. A length above zero.
             offset: Moves the indenter along x and y. An array of two, each a length.
@@ -480,7 +480,7 @@ class Ellipsoid:
         *,
         offset: ArrayLike | None = None,
     ) -> None:
-        """
+        """An elliptic paraboloid.
         Args:
             radius_x: Principal radius of curvature along x. A length above zero.
             radius_y: Principal radius of curvature along y. A length above zero.
@@ -496,7 +496,7 @@ class PowerLaw:
         height: Quantity,
         offset: ArrayLike | None = None,
     ) -> None:
-        """
+        """gap = height (r / radius)^exponent.
         Args:
             exponent: Exponent of the gap; 2 is a paraboloid. A number.
             radius: Radius at which the gap is `height`. A length above zero.
@@ -519,7 +519,7 @@ class Rough:
         sphere_radius: Quantity | None = None,
         offset: ArrayLike | None = None,
     ) -> None:
-        """
+        """A random self-affine surface.
         Args:
             cells: Points per side. An integer from 8 to 4096.
             spacing: Distance between points. A length above zero.

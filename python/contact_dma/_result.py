@@ -1,14 +1,18 @@
-"""What results have in common: columns by name, a table for pandas, a curve for notebooks, a folder."""
+"""What results have in common: columns by name, a table for pandas, a picture for notebooks."""
 
 from __future__ import annotations
 
+import csv
 import html
+import io
 import math
 import os
 import sys
 import warnings
+from abc import abstractmethod
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import is_dataclass
+from inspect import Parameter, Signature
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -39,13 +43,12 @@ def warn(message: str) -> None:
     warnings.warn(message, ContactDmaWarning, stacklevel=level)
 
 
-def failures(statuses: Sequence[Status], noun: str) -> str | None:
-    """What is said of those that have no result; None where all have one."""
-    failed = [f"{noun} {k} is {status}" for k, status in enumerate(statuses) if not status.converged]
-    if not failed:
-        return None
-    more = f"; and {len(failed) - 3} more" if len(failed) > 3 else ""
-    return f"{len(failed)} of {len(statuses)} {noun}s have no result, and are NaN: {'; '.join(failed[:3])}{more}"
+def filled(names: Sequence[str], values: Sequence[Any], named: Mapping[str, Any] | None) -> tuple[Any, ...]:
+    """The fields of a record by place or by name; None where one is left out."""
+    fields = [Parameter(name, Parameter.POSITIONAL_OR_KEYWORD, default=None) for name in names]
+    bound = Signature(fields).bind(*values, **(named or {}))
+    bound.apply_defaults()
+    return bound.args
 
 
 def same(one: Sequence[Any], other: Sequence[Any]) -> bool:
@@ -136,6 +139,72 @@ def arrays(columns: list[tuple[str, Any]]) -> dict[str, npt.NDArray[Any]]:
     return made
 
 
+def table(content: bytes) -> Columns:
+    """A CSV file as columns: numbers with NaN for empty cells, or texts."""
+    head, *rows = csv.reader(io.StringIO(content.decode("utf-8")))
+
+    def column(cells: Sequence[str]) -> npt.NDArray[Any]:
+        try:
+            return np.array([float(cell) if cell else np.nan for cell in cells])
+        except ValueError:
+            return np.array(cells)
+
+    return Columns(arrays([(name, column([row[k] for row in rows])) for k, name in enumerate(head)]))
+
+
+def failures(statuses: Sequence[Status], noun: str) -> str | None:
+    """What is said of those that have no result; None where all have one."""
+    failed = [f"{noun} {k} is {status}" for k, status in enumerate(statuses) if not status.converged]
+    if not failed:
+        return None
+    more = f"; and {len(failed) - 3} more" if len(failed) > 3 else ""
+    return f"{len(failed)} of {len(statuses)} {noun}s have no result, and are NaN: {'; '.join(failed[:3])}{more}"
+
+
+class Result(Table):
+    """Columns of a compiled result, how it ended, and how a notebook shows it."""
+
+    @abstractmethod
+    def _all_columns(self) -> list[tuple[str, Any]]: ...
+
+    @abstractmethod
+    def _picture(self) -> str | None: ...
+
+    @property
+    @abstractmethod
+    def title(self) -> str:
+        """Its title."""
+
+    @abstractmethod
+    def _failures(self) -> str | None:
+        """What is said of what has no result; None where all has one."""
+
+    def __init__(self, *_: Any) -> None:
+        self._columns = arrays(self._all_columns())
+
+    def raise_for_status(self) -> None:
+        """Raises RuntimeError where something has no result, with the reasons of the first."""
+        message = self._failures()
+        if message is not None:
+            raise RuntimeError(message)
+
+    def _warn_of_failures(self, call: str) -> None:
+        message = self._failures()
+        if message is not None:
+            warn(f"{call}: {message}")
+
+    def _remarks(self) -> list[str]:
+        """What is said below its picture."""
+        return []
+
+    def _repr_html_(self) -> str:
+        picture = self._picture() or "<p>no case has a result</p>"
+        remarks = "".join(f"<li>{html.escape(remark)}</li>" for remark in self._remarks())
+        caption = f"<figcaption>{html.escape(self.title)}</figcaption>"
+        # Pictures are drawn on white.
+        return f'<figure style="background: white; color: black">{caption}{picture}<ul>{remarks}</ul></figure>'
+
+
 def heard(progress: Any) -> Progress | None:
     """A callback, or a bar of tqdm, as a callback."""
     if progress is None:
@@ -150,81 +219,3 @@ def heard(progress: Any) -> Progress | None:
     if not callable(progress):
         raise ValueError("progress is called with what is done and the total: give a function, or a bar of tqdm")
     return progress  # type: ignore[no-any-return]
-
-
-COLORS = ("#1f5fa8", "#c0392b", "#2e8b57", "#b8860b", "#7d3c98", "#16828c")
-"""Of the curves of a picture, one after another."""
-
-
-def ticks(low: float, high: float) -> list[float]:
-    """About four round numbers from the lowest to the highest."""
-    if not high > low:
-        return [low]
-    decade = 10.0 ** math.floor(math.log10((high - low) / 4))
-    step = next(decade * k for k in (1, 2, 5, 10) if decade * k >= (high - low) / 4)
-    return [step * k for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
-
-
-def svg(
-    curves: list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]],
-    labels: tuple[str, str],
-    *,
-    log_x: bool,
-    names: Sequence[str] = (),
-    marks: Sequence[tuple[float, float]] = (),
-) -> str:
-    """Curves as a small inline picture, with their names and with marked points; points without a value are left out."""
-    width, height, left, top, right, bottom = 420, 240, 78, 14, 12, 44
-    kept, colors = [], []
-    for k, (x, y) in enumerate(curves):
-        fine = np.isfinite(x) & np.isfinite(y) & ((x > 0) | (not log_x))
-        if fine.any():
-            kept.append((np.log10(x[fine]) if log_x else x[fine], y[fine]))
-            colors.append(COLORS[k % len(COLORS)])
-    if not kept:
-        return "<p>no case has a result</p>"
-    x0, x1 = min(x.min() for x, _ in kept), max(x.max() for x, _ in kept)
-    y0, y1 = min(0.0, min(y.min() for _, y in kept)), max(y.max() for _, y in kept)
-
-    def place(x: float, y: float) -> str:
-        across = (x - x0) / (x1 - x0) if x1 > x0 else 0.5
-        up = (y - y0) / (y1 - y0) if y1 > y0 else 0.5
-        return f"{left + across * (width - left - right):.1f},{height - bottom - up * (height - top - bottom):.1f}"
-
-    def circle(point: str, color: str) -> str:
-        cx, cy = point.split(",")
-        return f'<circle cx="{cx}" cy="{cy}" r="2.5" fill="{color}"/>'
-
-    lines = []
-    for (x, y), color in zip(kept, colors):
-        points = " ".join(place(a, b) for a, b in zip(x.tolist(), y.tolist()))
-        lines.append(f'<polyline points="{points}" fill="none" stroke="{color}" stroke-width="1.6"/>')
-        if len(x) == 1:
-            lines.append(circle(points, color))
-    lines.extend(circle(place(math.log10(x) if log_x else x, y), "currentColor") for x, y in marks)
-    base = height - bottom
-    texts = []
-    for tick in ticks(x0, x1):
-        text = f"{10.0**tick if log_x else tick:.3g}"
-        texts.append(f'<text x="{place(tick, y0).split(",")[0]}" y="{base + 16}" text-anchor="middle">{text}</text>')
-    for tick in ticks(y0, y1):
-        texts.append(f'<text x="{left - 5}" y="{float(place(x0, tick).split(",")[1]) + 4}" text-anchor="end">{tick:.3g}</text>')
-    # As many names as there is room for.
-    for k, name in enumerate(names[:12] if len(curves) > 1 else ()):
-        color = COLORS[k % len(COLORS)]
-        texts.append(f'<text x="{left + 8}" y="{top + 10 + 14 * k}" fill="{color}">{html.escape(name)}</text>')
-    texts += [
-        f'<text x="{(left + width - right) / 2}" y="{height - 8}" text-anchor="middle">{html.escape(labels[0])}</text>',
-        f'<text transform="translate(12 {(top + base) / 2}) rotate(-90)" text-anchor="middle">{html.escape(labels[1])}</text>',
-    ]
-    frame = f'<path d="M{left} {top}V{base}H{width - right}" fill="none" stroke="#888"/>'
-    style = 'font-family="sans-serif" font-size="11" fill="currentColor"'
-    return (
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" {style}>'
-        f"{frame}{''.join(lines)}{''.join(texts)}</svg>"
-    )
-
-
-def shown(value: float, unit: str) -> str:
-    """A number for people, or a dash."""
-    return f"{value:.4g} {unit}" if math.isfinite(value) else "–"

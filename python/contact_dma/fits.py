@@ -13,8 +13,7 @@ from typing import Any
 import numpy as np
 
 from . import _toml
-from ._result import Columns, Floats, warn
-from ._stored import table as stored_table
+from ._result import Columns, Floats, table, warn
 
 _COLD_K = 120.0
 """Instruments cooled with liquid nitrogen reach -150 °C: a smaller number without unit is a temperature in °C, most likely."""
@@ -62,7 +61,7 @@ class MaterialFit:
         summary: dict[str, Any] = json.loads(contents["summary.json"])
         rms = ("storage_relative_rms", "loss_relative_rms", "relative_rms")
         misfit = max(float(summary[name]) for name in rms if name in summary)
-        columns = [Columns(stored_table(contents[name].decode())) if name in contents else None for name in ("shift.csv", "master.csv")]
+        columns = [table(contents[name]) if name in contents else None for name in ("shift.csv", "master.csv")]
         return cls(misfit, tuple(notes), tuple(warnings), tuple(report), summary, *columns)
 
     __hash__ = None  # type: ignore[assignment]

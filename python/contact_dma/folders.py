@@ -7,7 +7,6 @@ import os
 from pathlib import Path
 
 from . import _toml
-from ._stored import StoredHistory
 from .histories import HistoryResult
 from .measurements import AnalysisResult, IdentifiedMaterial
 from .sweeps import SweepResult
@@ -16,8 +15,7 @@ from .sweeps import SweepResult
 def read(folder: str | os.PathLike[str]) -> SweepResult | HistoryResult | AnalysisResult | IdentifiedMaterial:
     """The result in a folder that the program or `save` has written: of a sweep, a history, measured loops, or an identified material.
 
-    Nothing is solved, and nothing is written. Cycles of a large sweep and fields of a history stay in the folder until they are
-    asked for.
+    Nothing is solved, and nothing is written. Cycles of a large sweep stay in the folder until they are asked for.
 
     Args:
         folder: such as ``reports/pmma``.
@@ -52,5 +50,5 @@ def read(folder: str | os.PathLike[str]) -> SweepResult | HistoryResult | Analys
         report = "\n".join(comments[1:]).replace("\n  ", " ").splitlines()
         return IdentifiedMaterial(text, report, files)
     if (path / "history.csv").is_file():
-        return HistoryResult(StoredHistory(path))
+        return HistoryResult(path)
     return SweepResult(path)

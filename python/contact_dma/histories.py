@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 import os
 from collections.abc import Mapping
 from typing import Any
@@ -13,14 +12,13 @@ from ._calls import simulate as simulate
 from ._contact_dma import Field as Field
 from ._contact_dma import SurfaceLine as SurfaceLine
 from ._contact_dma import SurfaceProfile as SurfaceProfile
-from ._result import Columns, Table, Warning, arrays, heard, svg, warn
+from ._result import Columns, Result, arrays, heard
 from ._sources import source_of_file, source_of_values, thread_count, warn_without_effect
-from ._stored import StoredHistory
 from .indenters import Indenter
 from .materials import Material
 
 
-class HistoryResult(Table):
+class HistoryResult(_core.History, Result):
     """What a drive history came to: the columns of ``history.csv``, one row a time step; profiles and fields at requested times.
 
     Example:
@@ -30,15 +28,6 @@ class HistoryResult(Table):
         >>> result.failure is None, float(result["load_n"][-1])
         (True, 5.0)
     """
-
-    def __init__(self, core: _core.History | StoredHistory) -> None:
-        self._core = core
-        self._columns = arrays(core.columns())
-
-    @property
-    def title(self) -> str:
-        """Its title."""
-        return self._core.title
 
     @property
     def cycles(self) -> Columns:
@@ -52,63 +41,14 @@ class HistoryResult(Table):
             >>> result.cycles["energy_loss_j"].shape
             (2,)
         """
-        return Columns(arrays(self._core.cycles()))
+        return Columns(arrays(self._cycles()))
 
-    @property
-    def failure(self) -> str | None:
-        """Why the history ended before its time; None where it did not. What came before is in the columns."""
-        return self._core.failure
-
-    def raise_for_status(self) -> None:
-        """Raises RuntimeError where the history ended before its time, with the reason."""
-        if self.failure is not None:
-            raise RuntimeError(f"the history ended before its time: {self.failure}")
-
-    @property
-    def errors_missing(self) -> str | None:
-        """Why there are no errors although they were asked for."""
-        return self._core.errors_missing
-
-    @property
-    def warnings(self) -> tuple[Warning, ...]:
-        """What lies outside the model."""
-        return self._core.warnings
-
-    @property
-    def profiles(self) -> tuple[SurfaceProfile, ...]:
-        """The surface along lines at the times of ``profiles_at``."""
-        return self._core.profiles
-
-    @property
-    def fields(self) -> tuple[Field, ...]:
-        """Whole fields at the times of ``fields_at``; their arrays are views that cannot be written to."""
-        return self._core.fields
-
-    @property
-    def resolved(self) -> str:
-        """The scenario as the text of its file, every default filled in."""
-        return self._core.resolved
-
-    def save(self, folder: str | os.PathLike[str], *, overwrite: bool = False) -> None:
-        """Writes the tables that ``contact-dma simulate --no-figures`` writes: ``history.csv``, profiles, fields, ``summary.json``,
-        ``resolved.toml``.
-
-        Args:
-            folder: is made where it is not there.
-            overwrite: whether another result there is replaced.
-        """
-        self._core.save(os.fspath(folder), overwrite)
+    def _failures(self) -> str | None:
+        return None if self.failure is None else f"the history ended before its time: {self.failure}"
 
     def __repr__(self) -> str:
         ended = f", failed: {self.failure}" if self.failure else ""
         return f"<HistoryResult {self.title!r}: {len(self['time_s'])} time steps{ended}>"
-
-    def _repr_html_(self) -> str:
-        picture = svg([(self["time_s"], self["approach_m"])], ("time / s", "approach / m"), log_x=False)
-        return f"<figure><figcaption>{html.escape(self.title)}</figcaption>{picture}</figure>"
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return (HistoryResult, (self._core,))
 
 
 @_calls.body("simulate")
@@ -155,8 +95,7 @@ def _simulate(
     else:
         source = source_of_file("simulate", material, indenter, overrides, {**keys, **bodies})
         keys = {}
-    result = HistoryResult(_core.History(source, thread_count(threads), told))
+    result = HistoryResult(source, thread_count(threads), told)
     warn_without_effect("simulate", keys, result.resolved)
-    if result.failure is not None:
-        warn(f"simulate: the history ended before its time: {result.failure}")
+    result._warn_of_failures("simulate")
     return result

@@ -16,7 +16,19 @@ from .materials import Quantity, _mapped
 
 
 class Indenter:
-    """A rigid indenter. Lengths are numbers in metres or strings with units; indenters cannot be changed, compare by value, and pickle."""
+    """A rigid indenter. Lengths are numbers in metres or strings with units; indenters cannot be changed, compare by value, and pickle.
+
+    Example:
+        >>> Sphere("10 mm")
+        Sphere(radius='10 mm')
+        >>> round(float(Cone("45 deg").gap(1e-3)), 12), float(FlatPunch("1 mm").gap(0.5e-3))
+        (0.001, 0.0)
+        >>> float(Ellipsoid("10 mm", "20 mm").gap(1e-4)), float(PowerLaw(4.0, radius="1 mm", height="10 um").gap(1e-3))
+        (5e-07, 1e-05)
+        >>> rough = Rough(64, spacing="1 um", hurst_exponent=0.8, rms_height="50 nm", cut_off_wavelength="8 um", seed=1)
+        >>> bool(rough.gap(0.0) >= 0.0)
+        True
+    """
 
     __slots__ = ("_core", "_text", "_call")
 
@@ -73,58 +85,28 @@ def _restored(cls: type[Indenter], text: str, call: str) -> Indenter:
     return indenter
 
 
+# What each is, and its arguments, is said in the tables of the program.
 class Sphere(_calls.Sphere, Indenter):
-    """A sphere of this radius (m), as the paraboloid r^2 / (2 radius).
-
-    Example:
-        >>> Sphere("10 mm")
-        Sphere(radius='10 mm')
-    """
-
     __slots__ = ()
 
 
 class Cone(_calls.Cone, Indenter):
-    """A cone of this angle (rad) between its axis and its side.
-
-    Example:
-        >>> round(float(Cone("45 deg").gap(1e-3)), 12)
-        0.001
-    """
-
     __slots__ = ()
 
 
 class FlatPunch(_calls.FlatPunch, Indenter):
-    """A flat-ended cylinder of this radius (m).
-
-    Example:
-        >>> float(FlatPunch("1 mm").gap(0.5e-3))
-        0.0
-    """
-
     __slots__ = ()
 
 
 class Ellipsoid(_calls.Ellipsoid, Indenter):
-    """An ellipsoid of these principal radii of curvature (m).
-
-    Example:
-        >>> float(Ellipsoid("10 mm", "20 mm").gap(1e-4))
-        5e-07
-    """
-
     __slots__ = ()
 
 
 class PowerLaw(_calls.PowerLaw, Indenter):
-    """A body of revolution with gap = height (r / radius)^exponent; lengths in m.
+    __slots__ = ()
 
-    Example:
-        >>> float(PowerLaw(4.0, radius="1 mm", height="10 um").gap(1e-3))
-        1e-05
-    """
 
+class Rough(_calls.Rough, Indenter):
     __slots__ = ()
 
 
@@ -163,19 +145,6 @@ class Asperities(Indenter):
             rows.append({"center": [x, y], "radius": radius, "height": height[0] if height else None})
         self._made("asperities", asperities=rows)
         self._call = f"Asperities of {len(rows)}"
-
-
-class Rough(_calls.Rough, Indenter):
-    """A random self-affine surface, perhaps on a sphere.
-
-    Example:
-        >>> rough = Rough(64, spacing="1 um", hurst_exponent=0.8, rms_height="50 nm",
-        ...               cut_off_wavelength="8 um", seed=1, sphere_radius="1 mm")
-        >>> bool(rough.gap(0.0) >= 0.0)
-        True
-    """
-
-    __slots__ = ()
 
 
 class HeightMap(Indenter):

@@ -15,9 +15,8 @@ from . import _calls, _toml
 from . import _contact_dma as _core
 from ._calls import identify as identify
 from ._contact_dma import MeasuredCycle as MeasuredCycle
-from ._result import Columns, Table, arrays, failures, svg, warn
+from ._result import Columns, Result, Table, failures, table, warn
 from ._sources import Source, source_of_values, thread_count, warn_without_effect
-from ._stored import table
 from .fits import table_text
 from .indenters import Indenter
 from .materials import Material, Prony, Quantity
@@ -27,7 +26,7 @@ Record: TypeAlias = Union[str, "os.PathLike[str]", _toml.TableLike]
 dictionary or data frame; ``time_s``, ``load_n`` and ``approach_m`` are the same."""
 
 
-class AnalysisResult(Table, _core.Loops):
+class AnalysisResult(_core.Loops, Result):
     """What measured loops say: the columns of a sweep, one row a record by ascending frequency, with their errors.
 
     Example:
@@ -40,37 +39,18 @@ class AnalysisResult(Table, _core.Loops):
         0.1
     """
 
-    def __init__(self, *_: Any) -> None:
-        self._columns = arrays(self._all_columns())
-
-    def raise_for_status(self) -> None:
-        """Raises RuntimeError where a record has no result, with the reasons of the first."""
-        message = failures(self.status, "record")
-        if message is not None:
-            raise RuntimeError(message)
+    def _failures(self) -> str | None:
+        return failures(self.status, "record")
 
     @property
     def summary(self) -> dict[str, Any]:
         """What the program writes to ``summary.json``."""
-        summary: dict[str, Any] = json.loads(dict(self._files())["summary.json"])
+        summary: dict[str, Any] = json.loads(self._summary())
         return summary
-
-    def save(self, folder: str | os.PathLike[str], *, overwrite: bool = False) -> None:
-        """Writes the tables that ``contact-dma analyse`` writes; ``contact-dma report FOLDER`` draws figures and page from them.
-
-        Args:
-            folder: a new or empty folder, or one of an analysis.
-            overwrite: whether another result there is replaced; files of others stay.
-        """
-        _core.write_files(os.fspath(folder), "analysis", self._files(), overwrite)
 
     def __repr__(self) -> str:
         done = sum(status.converged for status in self.status)
         return f"<AnalysisResult: {done} of {len(self.status)} records have a loss>"
-
-    def _repr_html_(self) -> str:
-        loops = [(cycle.approach, cycle.load) for cycle in self.cycles]
-        return f"<figure>{svg(loops, ('approach / m', 'load / N'), log_x=False)}</figure>"
 
 
 def analyse(
@@ -113,9 +93,7 @@ def analyse(
     hertz = None if frequency is None else float(_toml.si(frequency, "Hz", "frequency"))
     given = [_record(record, k) for k, record in enumerate(each)]
     result = AnalysisResult(given, hertz, _setup(setup), thread_count(threads))
-    message = failures(result.status, "record")
-    if message is not None:
-        warn(f"analyse: {message}")
+    result._warn_of_failures("analyse")
     return result
 
 
@@ -188,12 +166,12 @@ class IdentifiedMaterial:
     @property
     def fit(self) -> Columns:
         """Data and model, the columns of ``fit.csv``."""
-        return Columns(table(dict(self._files)["fit.csv"].decode("utf-8")))
+        return table(dict(self._files)["fit.csv"])
 
     @property
     def moduli(self) -> Columns:
         """E' and E'' with their bands over frequency, the columns of ``moduli.csv``."""
-        return Columns(table(dict(self._files)["moduli.csv"].decode("utf-8")))
+        return table(dict(self._files)["moduli.csv"])
 
     def save(self, folder: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Writes the tables that ``contact-dma identify`` writes: ``material.toml``, ``prony.csv``, ``fit.csv``, ``moduli.csv``,
@@ -203,7 +181,7 @@ class IdentifiedMaterial:
             folder: a new or empty folder, or one of an identification.
             overwrite: whether another result there is replaced; files of others stay.
         """
-        _core.write_files(os.fspath(folder), "identification", self._files, overwrite)
+        _core.write_identification(os.fspath(folder), self._files, overwrite)
 
     def __repr__(self) -> str:
         return f"<IdentifiedMaterial of {len(self.prony.moduli)} branches>"

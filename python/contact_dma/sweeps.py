@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import html
 import json
 import os
 from collections.abc import Mapping, Sequence
 from typing import Any, overload
-
-import numpy as np
 
 from . import _calls
 from . import _contact_dma as _core
@@ -17,7 +14,7 @@ from ._contact_dma import Cycle as Cycle
 from ._contact_dma import Peak as Peak
 from ._contact_dma import PressureLine as PressureLine
 from ._contact_dma import PressureProfile as PressureProfile
-from ._result import Floats, Table, arrays, failures, heard, shown, svg, warn
+from ._result import Result, failures, heard
 from ._sources import source_of_file, source_of_values, thread_count, warn_without_effect
 from .indenters import Indenter
 from .materials import Material
@@ -47,7 +44,7 @@ class Cycles(Sequence[Cycle]):
         return f"<Cycles of {len(self)} cases>"
 
 
-class SweepResult(Table, _core.Sweep):
+class SweepResult(_core.Sweep, Result):
     """What a sweep came to: columns by name, cycles, peaks.
 
     Cases are rows, condition after condition, each in ascending frequency. A case without a result is NaN in the columns, and
@@ -65,15 +62,6 @@ class SweepResult(Table, _core.Sweep):
         ['converged', 'converged', 'converged']
     """
 
-    def __init__(self, *_: Any) -> None:
-        self._columns = arrays(self._all_columns())
-
-    def raise_for_status(self) -> None:
-        """Raises RuntimeError where a case has no result, with the reasons of the first."""
-        message = failures(self.status, "case")
-        if message is not None:
-            raise RuntimeError(message)
-
     @property
     def cycles(self) -> Cycles:
         """The stabilised cycle of every case."""
@@ -85,38 +73,20 @@ class SweepResult(Table, _core.Sweep):
         summary: dict[str, Any] = json.loads(self._summary())
         return summary
 
-    def _curves(self) -> tuple[list[tuple[Floats, Floats]], list[str]]:
-        """Frequencies and losses of every curve, and what axes have there."""
-        omega, loss = self["angular_frequency_rad_per_s"], self["energy_loss_j"]
-        # A curve ends where frequencies begin anew.
-        ends = [*(np.flatnonzero(np.diff(omega) <= 0) + 1).tolist(), len(omega)]
-        starts = [0, *ends[:-1]]
-        axes = self._axes()
-
-        def name(case: int) -> str:
-            values = (self[axis][case] for axis in axes)
-            return ", ".join(value if isinstance(value, str) else f"{axis} {value:.4g}" for axis, value in zip(axes, values))
-
-        return [(omega[a:b], loss[a:b]) for a, b in zip(starts, ends)], [name(a) for a in starts]
-
     def __repr__(self) -> str:
         done = sum(status.converged for status in self.status)
         peaks, warned = len(self.peaks), sum(map(bool, self.warnings))
         text = f"{done} of {len(self.status)} cases converged, {peaks} peak{'' if peaks == 1 else 's'}"
         return f"<SweepResult {self.title!r}: {text}{f', {warned} with warnings' if warned else ''}>"
 
-    def _repr_html_(self) -> str:
-        labels = ("angular frequency ω / rad/s", "energy loss ΔW / J")
-        rows = "".join(
-            f"<li>peak of {shown(p.energy_loss, 'J')} at {shown(p.angular_frequency, 'rad/s')}</li>" for p in self.peaks[:5]
-        )
-        failed = [f"<li>case {k}: {html.escape(str(s))}</li>" for k, s in enumerate(self.status) if not s.converged]
+    def _failures(self) -> str | None:
+        return failures(self.status, "case")
+
+    def _remarks(self) -> list[str]:
+        peaks = [f"peak of {peak.energy_loss:.4g} J at {peak.angular_frequency:.4g} rad/s" for peak in self.peaks[:5]]
+        failed = [f"case {k}: {status}" for k, status in enumerate(self.status) if not status.converged]
         said = dict.fromkeys(warning.message for of_case in self.warnings for warning in of_case)
-        failed = failed[:5] + [f"<li>Warning: {html.escape(message)}</li>" for message in list(said)[:5]]
-        curves, names = self._curves()
-        marks = [(peak.angular_frequency, peak.energy_loss) for peak in self.peaks]
-        picture = svg(curves, labels, log_x=True, names=names, marks=marks)
-        return f"<figure><figcaption>{html.escape(self.title)}</figcaption>{picture}<ul>{rows}{''.join(failed)}</ul></figure>"
+        return peaks + failed[:5] + [f"Warning: {message}" for message in list(said)[:5]]
 
 
 @_calls.body("sweep")
@@ -166,7 +136,5 @@ def _sweep(
         keys = {}
     result = SweepResult(source, thread_count(threads), told)
     warn_without_effect("sweep", keys, result.resolved)
-    message = failures(result.status, "case")
-    if message is not None:
-        warn(f"sweep: {message}")
+    result._warn_of_failures("sweep")
     return result

@@ -7,32 +7,34 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use contact_dma::contact::surface::{CellSurface, Surface};
 use contact_dma::input::scenario_file;
-use contact_dma::report::profile_lines;
+use contact_dma::report::figure::{self, units::Units};
+use contact_dma::report::profile_lines::{Profile, ProfilePoint};
 use contact_dma::report::quantities::{Moment, of_cycles, of_moments};
-use contact_dma::report::scenario_tables;
+use contact_dma::report::{self, scenario_folder, scenario_tables};
 use contact_dma::simulation::outside_model;
 use contact_dma::simulation::scenario::{ScenarioPlan, resolved_text};
 use contact_dma::simulation::{Simulation, SimulationEnd, SimulationOutcome, SurfaceRecord};
-use contact_dma::sweep::store::Store;
-use contact_dma::sweep::store::provenance::{Circumstances, Stopwatch};
+use contact_dma::sweep::store::provenance::Stopwatch;
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 
-use crate::folder::MapFile;
-use crate::record::{Field, Items, SurfaceLine, SurfaceProfile, Warning};
+use crate::folder::{self, Opening};
+use crate::record::{Field, Items, SurfaceLine, SurfaceProfile, Warning, picture};
 use crate::shape::Shape;
 use crate::source::{Origin, Packed, Source, reduced};
 use crate::wait::{self, Counter, Watch};
 use crate::{arrays, failure};
 
-/// A history and what it came to.
-#[pyclass(frozen, module = "contact_dma._contact_dma")]
+/// What a drive history came to.
+#[pyclass(frozen, subclass, module = "contact_dma._contact_dma")]
 pub struct History {
     plan: ScenarioPlan,
-    outcome: SimulationOutcome,
+    made: scenario_tables::History,
     /// The indenter, of a plan whose text does not say all of it.
     shape: Option<Py<Shape>>,
+    /// Where it was read.
+    folder: Option<PathBuf>,
 }
 
 #[pymethods]
@@ -47,76 +49,86 @@ impl History {
     ) -> PyResult<Self> {
         let packed = match origin {
             Origin::Call(source) => return simulated(py, &source, threads, progress.as_ref()),
+            Origin::Folder(folder) => return py.detach(|| read(folder)),
             Origin::Packed(packed) => packed,
-            Origin::Folder(_) => {
-                return Err(failure::of_value("histories are read by contact_dma.read"));
-            }
         };
         let (document, given) = packed.document("the pickled history")?;
         let plan = scenario_file::plan_with(&document, &given);
-        let outcome = postcard::from_bytes(packed.3.as_bytes(py));
+        let outcome: Result<SimulationOutcome, _> = postcard::from_bytes(packed.3.as_bytes(py));
         Ok(Self {
             plan: plan.map_err(|found| failure::of_input(&found))?,
-            outcome: outcome.map_err(|_| failure::of_other_build())?,
+            made: outcome.map_err(|_| failure::of_other_build())?.into(),
             shape: packed.2,
+            folder: None,
         })
     }
 
-    fn columns<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
-        let moments: Vec<Moment> = Moment::all(&self.outcome).collect();
+    fn _all_columns<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
+        let moments: Vec<Moment> = Moment::all(&self.made.outcome).collect();
         arrays::columns(py, &of_moments(), &moments)
     }
 
-    fn cycles<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
-        arrays::columns(py, &of_cycles(), &self.outcome.cycles)
+    fn _cycles<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
+        arrays::columns(py, &of_cycles(), &self.made.outcome.cycles)
     }
 
+    /// A picture of load, approach and contact radius, as HTML.
+    fn _picture(&self) -> Option<String> {
+        let figure = figure::history::figure(&self.made.outcome, &Units::default());
+        picture(&figure.ok()?)
+    }
+
+    /// Its title.
     #[getter]
     fn title(&self) -> &str {
         &self.plan.title
     }
 
+    /// The scenario as the text of its file, every default filled in.
     #[getter]
     fn resolved(&self) -> String {
         resolved_text(&self.plan)
     }
 
+    /// Why the history ended before its time; None where it did not. What came before is in the columns.
     #[getter]
     fn failure(&self) -> Option<&str> {
-        match &self.outcome.ended {
+        match &self.made.outcome.ended {
             SimulationEnd::Failed(message) => Some(message),
-            SimulationEnd::Done | SimulationEnd::Interrupted => None,
+            SimulationEnd::Interrupted => Some("interrupted"),
+            SimulationEnd::Done => None,
         }
     }
 
+    /// Why there are no errors although they were asked for.
     #[getter]
     fn errors_missing(&self) -> Option<&str> {
-        self.outcome.errors_missing.as_deref()
+        self.made.outcome.errors_missing.as_deref()
     }
 
+    /// What lies outside the model.
     #[getter]
     fn warnings(&self, py: Python<'_>) -> PyResult<Items<Warning>> {
-        let warnings = outside_model::warnings(&self.plan, &self.outcome);
+        let warnings = outside_model::warnings(&self.plan, &self.made.outcome);
         Items::new(py, warnings.into_iter().map(|w| Warning::of(w.code(), w)))
     }
 
+    /// The surface along lines at the times of ``profiles_at``.
     #[getter]
     fn profiles(&self, py: Python<'_>) -> PyResult<Items<SurfaceProfile>> {
-        let profiles = self.outcome.profiles.iter().map(|record| {
-            let lines = profile_lines::lines(record).into_iter();
-            let lines = lines.map(|(along, points)| {
-                let of = |value: fn(&profile_lines::ProfilePoint) -> Option<f64>| {
+        let profiles = self.made.profiles.iter().map(|Profile { row, lines, .. }| {
+            let lines = lines.iter().map(|(along, points)| {
+                let of = |value: fn(&ProfilePoint) -> Option<f64>| {
                     arrays::nullable(py, points.iter().map(value))
                 };
                 SurfaceLine {
-                    along: along.to_owned(),
+                    along: along.clone(),
                     position: of(|point| Some(point.position_m)),
                     pressure: of(|point| point.pressure_pa),
                     displacement: of(|point| Some(point.displacement_m)),
                     gap: of(|point| point.gap_m),
                 }
             });
-            let row = &record.row;
             Ok(SurfaceProfile {
                 time: row.time_s,
                 load: row.load_n,
@@ -128,10 +140,10 @@ impl History {
         Items::new(py, profiles.collect::<PyResult<Vec<_>>>()?)
     }
 
-    /// Nothing is copied.
+    /// Whole fields at the times of ``fields_at``; their arrays are views that cannot be written to.
     #[getter]
     fn fields(slf: &Bound<'_, Self>) -> PyResult<Items<Field>> {
-        let fields = slf.get().outcome.fields.iter().filter_map(|record| {
+        let fields = slf.get().made.outcome.fields.iter().filter_map(|record| {
             let Surface::Cells(cells) = &record.surface else {
                 return None;
             };
@@ -140,33 +152,26 @@ impl History {
         Items::new(slf.py(), fields.collect::<PyResult<Vec<_>>>()?)
     }
 
+    /// Writes the tables that ``contact-dma simulate --no-figures`` writes: ``history.csv``, profiles, fields, ``summary.json``,
+    /// ``resolved.toml``. ``contact-dma report FOLDER`` draws figures and page from them.
+    ///
+    /// Args:
+    ///     folder: is made where it is not there.
+    ///     overwrite: whether another result there is replaced.
+    #[pyo3(signature = (folder, *, overwrite = false))]
     fn save(&self, py: Python<'_>, folder: PathBuf, overwrite: bool) -> PyResult<()> {
         py.detach(|| {
-            let mut plan = self.plan.clone();
-            let map = self.shape.as_ref().and_then(|shape| shape.get().map());
-            let map = map.map(|map| MapFile::of(map, &folder)).transpose()?;
-            if let Some(map) = &map {
-                plan.contact.indenter = Arc::clone(&map.indenter);
-            }
-            let stored = |error| failure::of_store(&error);
-            let store = Store::open(&folder, &resolved_text(&plan), overwrite).map_err(stored)?;
-            if let Some(map) = &map {
-                map.write(&store).map_err(stored)?;
-            }
-            let profiles = scenario_tables::profiles(&self.outcome);
-            let written = scenario_tables::write(&store, &plan, (&self.outcome, &profiles));
-            written.map_err(|error| failure::of_report(&error))?;
-            store.remove_stale().map_err(stored)?;
-            let circumstances = Circumstances {
-                command: "python",
-                threads: 1,
-                shard: None,
-                cases_computed: None,
-                cases_found: None,
-                interrupted: false,
+            let store = Opening {
+                plan: &self.plan,
+                indenter: |plan| &mut plan.contact.indenter,
+                resolved: resolved_text,
+                shape: self.shape.as_ref(),
             };
-            let signed = Stopwatch::start().write(&store, &plan.solver, None, &circumstances);
-            signed.map_err(stored)
+            let (store, plan) = store.open(&folder, overwrite)?;
+            let written = report::scenario::write_tables(&store, &plan, &self.made);
+            written.map_err(|error| failure::of_report(&error))?;
+            let clock = Stopwatch::start();
+            folder::sign(&store, &clock, (&plan.solver, None), (1, None))
         })
     }
 
@@ -175,7 +180,10 @@ impl History {
         slf: &Bound<'py, Self>,
     ) -> PyResult<(Bound<'py, PyType>, Bound<'py, PyTuple>)> {
         let (py, this) = (slf.py(), slf.get());
-        let outcome = postcard::to_stdvec(&this.outcome).map_err(failure::of_run)?;
+        if let Some(folder) = &this.folder {
+            return reduced(slf.as_any(), folder);
+        }
+        let outcome = postcard::to_stdvec(&this.made.outcome).map_err(failure::of_run)?;
         let resolved = resolved_text(&this.plan);
         let packed = Packed::of(py, resolved, this.shape.as_ref(), &outcome, 1);
         reduced(slf.as_any(), packed)
@@ -207,6 +215,20 @@ fn field(
     })
 }
 
+/// The history in a folder of the program.
+fn read(folder: PathBuf) -> PyResult<History> {
+    let document = folder::document(&folder)?.1;
+    let plan = scenario_file::plan(&document).map_err(|found| failure::of_input(&found))?;
+    let simulation = Simulation::new(plan).map_err(failure::of_value)?;
+    let made = scenario_folder::read(&folder, &simulation);
+    Ok(History {
+        made: made.map_err(|found| failure::of_input(&found))?,
+        plan: simulation.plan().clone(),
+        shape: None,
+        folder: Some(folder),
+    })
+}
+
 /// Follows a drive history.
 fn simulated(
     py: Python<'_>,
@@ -235,7 +257,8 @@ fn simulated(
     }
     Ok(History {
         plan: simulation.plan().clone(),
-        outcome,
+        made: outcome.into(),
         shape: source.map(),
+        folder: None,
     })
 }

@@ -29,7 +29,7 @@ mod _contact_dma {
     #[pymodule_export]
     use crate::history::History;
     #[pymodule_export]
-    use crate::measured::{Loops, identify_material, quantity, write_files};
+    use crate::measured::{Loops, identify_material, quantity, write_identification};
     #[pymodule_export]
     use crate::record::{
         Cycle, Field, MeasuredCycle, Peak, PressureLine, PressureProfile, Status, SurfaceLine,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use contact_dma::identify::{IdentifyError, curves, identify};
@@ -11,10 +11,10 @@ use contact_dma::input::document::Document;
 use contact_dma::input::{identify_file, loop_file, setup_file};
 use contact_dma::measured::{Options, Signal};
 use contact_dma::quantity::{Dimension, parse};
-use contact_dma::report::ReportError;
 use contact_dma::report::identify::IdentifyReport;
 use contact_dma::report::kept_figures::{KEPT, KeptFigures};
 use contact_dma::report::measured::{Analysis, MeasuredRow, columns, files, ordered};
+use contact_dma::report::{ReportError, figure};
 use contact_dma::sweep::plan::figures::FigurePlan;
 use contact_dma::sweep::search::run::{pool, useful_threads};
 use contact_dma::sweep::store::manifest::{Kind, Target};
@@ -24,7 +24,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple, PyType};
 use rayon::prelude::*;
 
-use crate::record::{Items, MeasuredCycle, Status, Warning};
+use crate::record::{Items, MeasuredCycle, Status, Warning, picture};
 use crate::source::{Source, reduced};
 use crate::wait;
 use crate::{arrays, failure};
@@ -113,9 +113,33 @@ impl Loops {
         Items::new(py, self.0.rows.iter().map(cycle))
     }
 
-    fn _files<'py>(&self, py: Python<'py>) -> PyResult<Files<'py>> {
+    /// A picture of the first figure, the loops, as HTML.
+    fn _picture(&self) -> Option<String> {
+        picture(figure::measured::figures(&self.0).first()?)
+    }
+
+    fn _summary(&self) -> PyResult<Vec<u8>> {
         let files = files(&self.0).map_err(failure::of_run)?;
-        with_figures(py, files, KeptFigures::of_loops(&self.0))
+        let summary = files.into_iter().find(|(name, _)| *name == "summary.json");
+        Ok(summary.map(|(_, summary)| summary).unwrap_or_default())
+    }
+
+    /// Writes what ``contact-dma analyse`` writes; ``contact-dma report FOLDER`` draws figures and page from it.
+    ///
+    /// Args:
+    ///     folder: a new or empty folder, or one of an analysis.
+    ///     overwrite: whether another result there is replaced; files of others stay.
+    #[pyo3(signature = (folder, *, overwrite = false))]
+    fn save(&self, py: Python<'_>, folder: PathBuf, overwrite: bool) -> PyResult<()> {
+        let files = files(&self.0).map_err(failure::of_run)?;
+        let files = with_figures(files, KeptFigures::of_loops(&self.0))?;
+        write_files(py, &folder, Kind::Analysis, files, overwrite)
+    }
+
+    /// Its title.
+    #[getter]
+    fn title(&self) -> &str {
+        &self.0.title
     }
 
     #[pyo3(signature = () -> "tuple[Any, tuple[Any, ...]]")]
@@ -194,17 +218,16 @@ fn row(record: RecordSource, options: &Options) -> Result<MeasuredRow, Diagnosti
     Ok(MeasuredRow::of(file, &signal, options))
 }
 
-/// Files of a folder with those of its figures, which `contact-dma report` draws.
-fn with_figures<'py, N: Into<String>>(
-    py: Python<'py>,
+/// Files of a folder with that of its figures, which `contact-dma report` draws.
+fn with_figures<N: Into<String>>(
     files: Vec<(N, Vec<u8>)>,
     kept: Result<(KeptFigures, Vec<String>), ReportError>,
-) -> PyResult<Files<'py>> {
+) -> PyResult<Vec<(String, Vec<u8>)>> {
     let (mut kept, _) = kept.map_err(|error| failure::of_report(&error))?;
     let kept = kept.to_json(&FigurePlan::default());
-    let mut files = bytes(py, files);
-    files.extend(bytes(py, vec![(KEPT, kept.map_err(failure::of_run)?)]));
-    Ok(files)
+    let files = files.into_iter().map(|(name, bytes)| (name.into(), bytes));
+    let kept = (KEPT.to_owned(), kept.map_err(failure::of_run)?);
+    Ok(files.chain([kept]).collect())
 }
 
 pub fn bytes<N: Into<String>>(py: Python<'_>, files: Vec<(N, Vec<u8>)>) -> Files<'_> {
@@ -245,8 +268,8 @@ pub fn identify_material<'py>(
     };
     let block = report.block().map_err(failure::of_run)?;
     let kept = KeptFigures::of_identification(&report, &block);
-    let files = with_figures(py, report.files(&block), kept)?;
-    Ok((block, report.lines(), files))
+    let files = with_figures(report.files(&block), kept)?;
+    Ok((block, report.lines(), bytes(py, files)))
 }
 
 /// A number with its unit, in the SI unit of the quantity that is expected. Frequencies in Hz and in rad/s are read as one another.
@@ -266,22 +289,26 @@ pub fn quantity(text: &str, si_unit: &str) -> PyResult<f64> {
     })
 }
 
-/// Fills the folder of an `analysis`, an `identification` or a `scenario` with files; `force` replaces what else is there.
+/// Fills the folder of an identification with files; `force` replaces what else is there.
 #[pyfunction]
-pub fn write_files(
+pub fn write_identification(
     py: Python<'_>,
     folder: PathBuf,
-    kind: &str,
     files: Vec<(String, Vec<u8>)>,
     force: bool,
 ) -> PyResult<()> {
-    let kind = match kind {
-        "analysis" => Kind::Analysis,
-        "identification" => Kind::Identification,
-        _ => Kind::Scenario,
-    };
+    write_files(py, &folder, Kind::Identification, files, force)
+}
+
+fn write_files(
+    py: Python<'_>,
+    folder: &Path,
+    kind: Kind,
+    files: Vec<(String, Vec<u8>)>,
+    force: bool,
+) -> PyResult<()> {
     let target = Target {
-        folder: &folder,
+        folder,
         kind,
         force,
         reads: &[],

@@ -2,9 +2,12 @@
 
 use std::marker::PhantomData;
 
+use contact_dma::report::figure::Figure;
 use numpy::{PyArray1, PyArray2};
+use pyo3::conversion::FromPyObjectOwned;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyString, PyTuple, PyType};
+use pyo3::types::{PyDict, PyString, PyTuple, PyType};
 
 /// A tuple of any length, whose items are of one type.
 pub struct Items<T>(Py<PyTuple>, PhantomData<fn() -> T>);
@@ -84,18 +87,35 @@ fn values<'py>(record: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyTuple>> {
     PyTuple::new(record.py(), values.collect::<PyResult<Vec<_>>>()?)
 }
 
-/// Classes of records: for each field its meaning and its type; then other methods. Fields are the arguments of a constructor where this
-/// is asked for.
+/// The next field that a constructor was given.
+fn next<'py, T: FromPyObjectOwned<'py>>(
+    fields: &mut impl Iterator<Item = Bound<'py, PyAny>>,
+) -> PyResult<T> {
+    let field = fields.next();
+    let field = field.ok_or_else(|| PyTypeError::new_err("a field is missing"))?;
+    field.extract().map_err(Into::into)
+}
+
+/// Classes of records: for each field its meaning and its type; then other methods. Fields are the arguments of the constructor.
 macro_rules! records {
-    ($($(#[doc = $about:literal])+ $Name:ident $(($($option:tt)+))? {
+    ($($(#[doc = $about:literal])+ $Name:ident {
         $($(#[doc = $means:literal])+ $field:ident: $type:ty),+ $(,)?
     } $(with { $($method:item)+ })?)+) => { $(
         $(#[doc = $about])+
-        #[pyclass(frozen, get_all, module = "contact_dma" $(, $($option)+)?)]
+        #[pyclass(frozen, get_all, module = "contact_dma")]
         pub struct $Name { $($(#[doc = $means])+ pub $field: $type),+ }
 
         #[pymethods]
         impl $Name {
+            #[new]
+            #[pyo3(signature = (*values: "Any", **named: "Any"))]
+            fn new(values: &Bound<'_, PyTuple>, named: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+                let names = [$(stringify!($field)),+];
+                let filled = helper(values, "filled")?.call1((names, values, named))?;
+                let mut fields = filled.cast::<PyTuple>()?.iter();
+                Ok(Self { $($field: next(&mut fields)?),+ })
+            }
+
             #[classattr]
             fn __match_args__(py: Python<'_>) -> PyResult<Items<&'static str>> {
                 Items::new(py, [$(stringify!($field)),+])
@@ -141,12 +161,6 @@ records! {
         /// Why there is no result, or what else is to be known.
         reason: Option<String>,
     } with {
-        #[new]
-        #[pyo3(signature = (name, reason = None))]
-        fn new(name: String, reason: Option<String>) -> Self {
-            Self { name, reason }
-        }
-
         /// Whether there is a result.
         #[getter]
         fn converged(&self) -> bool {
@@ -162,7 +176,7 @@ records! {
     }
 
     /// What lies outside the model, or was not estimated.
-    Warning (new = "from_fields") {
+    Warning {
         /// The program's code of it.
         code: String,
         /// A sentence.
@@ -188,23 +202,6 @@ records! {
         /// The column of the result that each value of `varied` belongs to.
         varied_columns: Items<String>,
     } with {
-        #[new]
-        #[pyo3(signature = (*values: "Any"))]
-        fn new(values: PeakValues) -> Self {
-            let (angular_frequency, energy_loss, angular_frequency_uncertainty, energy_loss_error, ..) = values;
-            let (.., varied, drive_mean, drive_amplitude, varied_columns) = values;
-            Self {
-                angular_frequency,
-                energy_loss,
-                angular_frequency_uncertainty,
-                energy_loss_error,
-                varied,
-                drive_mean,
-                drive_amplitude,
-                varied_columns,
-            }
-        }
-
         /// Its frequency (Hz).
         #[getter]
         fn frequency(&self) -> f64 {
@@ -213,7 +210,7 @@ records! {
     }
 
     /// The contact pressure along a line through the origin.
-    PressureLine (new = "from_fields") {
+    PressureLine {
         /// ``"r"``, ``"x"`` or ``"y"``.
         along: String,
         /// Positions (m), shape (n,).
@@ -223,7 +220,7 @@ records! {
     }
 
     /// The contact pressure at a quarter of the oscillation.
-    PressureProfile (new = "from_fields") {
+    PressureProfile {
         /// Such as ``"greatest load"``.
         instant: String,
         /// Since the cycle began (s).
@@ -239,7 +236,7 @@ records! {
     }
 
     /// The stabilised cycle of a case, sample by sample; arrays of length 0 where the case has no result.
-    Cycle (new = "from_fields") {
+    Cycle {
         /// rad/s.
         angular_frequency: f64,
         /// Since the cycle began (s), shape (samples,).
@@ -257,7 +254,7 @@ records! {
     }
 
     /// The deformed surface along a line through the origin, arrays of shape (n,).
-    SurfaceLine (new = "from_fields") {
+    SurfaceLine {
         /// ``"r"``, ``"x"`` or ``"y"``.
         along: String,
         /// m.
@@ -271,7 +268,7 @@ records! {
     }
 
     /// The surface along lines at a requested time.
-    SurfaceProfile (new = "from_fields") {
+    SurfaceProfile {
         /// s.
         time: f64,
         /// N.
@@ -302,27 +299,10 @@ records! {
         displacement: Matrix,
         /// m, infinite where there is no indenter; None where its place is unknown.
         gap: Option<Matrix>,
-    } with {
-        #[new]
-        #[pyo3(signature = (*values: "Any"))]
-        fn new(values: FieldValues) -> Self {
-            let (time, load, approach, contact_radius, ..) = values;
-            let (.., spacing, pressure, displacement, gap) = values;
-            Self {
-                time,
-                load,
-                approach,
-                contact_radius,
-                spacing,
-                pressure,
-                displacement,
-                gap,
-            }
-        }
     }
 
     /// The mean cycle of a record, corrected, as uniform samples; arrays of length 0 where there is none.
-    MeasuredCycle (new = "from_fields") {
+    MeasuredCycle {
         /// s, shape (samples,).
         time: Line,
         /// N, shape (samples,).
@@ -331,28 +311,6 @@ records! {
         approach: Line,
     }
 }
-
-type PeakValues = (
-    f64,
-    f64,
-    f64,
-    Option<f64>,
-    Items<AxisValue>,
-    Option<f64>,
-    Option<f64>,
-    Items<String>,
-);
-
-type FieldValues = (
-    f64,
-    f64,
-    f64,
-    f64,
-    (f64, f64),
-    Matrix,
-    Matrix,
-    Option<Matrix>,
-);
 
 /// What an axis has for a peak: a number in SI units, or the name of a block.
 #[derive(IntoPyObject)]
@@ -369,4 +327,9 @@ impl Warning {
             message,
         }
     }
+}
+
+/// A figure as an element of HTML; `None` where it cannot be drawn.
+pub fn picture(figure: &Figure) -> Option<String> {
+    Some(figure.picture.draw().ok()?.to_page_element())
 }

@@ -9,23 +9,23 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use contact_dma::input::document::Document;
 use contact_dma::input::given::Given;
 use contact_dma::input::sweep_file;
-use contact_dma::report::{cycles, quantities, summary, sweep_tables};
+use contact_dma::report::{cycles, figure, quantities, summary, sweep_tables};
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::resolved::{hash, resolved_text};
 use contact_dma::sweep::plan::{Case, SweepPlan, Varied};
 use contact_dma::sweep::record::{self, CaseRecord, RecordedCycle};
 use contact_dma::sweep::search;
 use contact_dma::sweep::search::run::{self, Mode, Outcome, Progress};
-use contact_dma::sweep::store::provenance::{Circumstances, Stopwatch};
-use contact_dma::sweep::store::{Archive, RESOLVED, Store, merge, records};
+use contact_dma::sweep::store::provenance::Stopwatch;
+use contact_dma::sweep::store::{Archive, Store, merge, records};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 
-use crate::folder::MapFile;
+use crate::folder::{self, Opening};
 use crate::record::{
-    AxisValue, Cycle, Items, Line, Peak, PressureLine, PressureProfile, Status, Warning,
+    AxisValue, Cycle, Items, Line, Peak, PressureLine, PressureProfile, Status, Warning, picture,
 };
 use crate::shape::Shape;
 use crate::source::{Origin, Packed, Source, reduced};
@@ -165,15 +165,26 @@ impl Sweep {
         resolved_text(&self.plan)
     }
 
+    /// A picture of the losses over frequency, as HTML; None where no case has a result.
+    fn _picture(&self) -> PyResult<Option<String>> {
+        if self
+            .outcome
+            .records
+            .iter()
+            .all(|record| record.result.is_none())
+        {
+            return Ok(None);
+        }
+        let figure = figure::of_sweep::energy_loss(&self.plan, &self.outcome);
+        Ok(picture(
+            &figure.map_err(|error| failure::of_report(&error))?,
+        ))
+    }
+
     fn _summary(&self) -> PyResult<Vec<u8>> {
         let hash = hash(&resolved_text(&self.plan));
         let summary = summary::summary(&self.plan, &self.outcome, &hash);
         summary.map_err(|error| failure::of_report(&error))
-    }
-
-    /// The columns of the axes besides the frequency.
-    fn _axes(&self, py: Python<'_>) -> PyResult<Items<String>> {
-        Items::new(py, self.over().map(Varied::column))
     }
 
     #[getter]
@@ -243,7 +254,7 @@ impl Sweep {
             varied: Items::new(py, varied)?,
             drive_mean: peak.drive_mean,
             drive_amplitude: peak.drive_amplitude,
-            varied_columns: self._axes(py)?,
+            varied_columns: Items::new(py, self.over().map(Varied::column))?,
         })
     }
 
@@ -308,17 +319,14 @@ impl Sweep {
     }
 
     fn write(&self, folder: &Path, force: bool) -> PyResult<()> {
-        let mut plan = self.plan.clone();
-        let map = self.shape.as_ref().and_then(|shape| shape.get().map());
-        let map = map.map(|map| MapFile::of(map, folder)).transpose()?;
-        if let Some(map) = &map {
-            plan.base.contact.indenter = Arc::clone(&map.indenter);
-        }
+        let opening = Opening {
+            plan: &self.plan,
+            indenter: |plan| &mut plan.base.contact.indenter,
+            resolved: resolved_text,
+            shape: self.shape.as_ref(),
+        };
+        let (store, plan) = opening.open(folder, force)?;
         let stored = |error| failure::of_store(&error);
-        let store = Store::open(folder, &resolved_text(&plan), force).map_err(stored)?;
-        if let Some(map) = &map {
-            map.write(&store).map_err(stored)?;
-        }
         match &self.records {
             Records::Memory(memory) => memory.put_into(&store).map_err(stored)?,
             Records::Folder(from) => {
@@ -335,22 +343,14 @@ impl Sweep {
             cycles::write(&store, &store, &plan, &self.outcome).map_err(stored)?;
         }
         store.remove_stale().map_err(stored)?;
-        let count = self.outcome.records.len();
-        let circumstances = Circumstances {
-            command: "python",
-            threads: self.threads,
-            shard: None,
-            cases_computed: Some(count),
-            cases_found: Some(0),
-            interrupted: false,
-        };
-        let signed = self.clock.write(
+        let (solver, cases) = (&plan.solver, Some(self.outcome.records.len()));
+        let tolerance = Some(plan.cycle.tolerance);
+        folder::sign(
             &store,
-            &plan.solver,
-            Some(plan.cycle.tolerance),
-            &circumstances,
-        );
-        signed.map_err(stored)
+            &self.clock,
+            (solver, tolerance),
+            (self.threads, cases),
+        )
     }
 }
 
@@ -412,11 +412,7 @@ const PEAK_CASES: usize = 5;
 
 /// The result in a folder of the program.
 fn read(py: Python<'_>, folder: &Path) -> PyResult<Sweep> {
-    let opened = Store::reopen_to_read(folder);
-    let (store, resolved) = opened.map_err(|error| failure::of_store(&error))?;
-    let name = folder.join(RESOLVED).display().to_string();
-    let document = Document::parse(&name, &resolved).map_err(|found| failure::of_input(&found))?;
-    let document = document.in_folder(folder);
+    let (store, document) = folder::document(folder)?;
     let records = Records::Folder(store);
     collected(py, &document, &Given::default(), records, (None, 1))
 }

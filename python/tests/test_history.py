@@ -32,7 +32,7 @@ def test_a_step_of_load_creeps_as_ting_says() -> None:
     # 64 springs over the contact: below one per cent.
     assert result["contact_radius_m"][1:] == pytest.approx(radius[1:], rel=0.01)
     assert result["approach_m"][1:] == pytest.approx(radius[1:] ** 2 / 0.01, rel=0.01)
-    assert "<polyline" in result._repr_html_() and result.failure is None
+    assert "<title>load W / N" in result._repr_html_() and result.failure is None
 
 
 def test_a_file_gives_what_the_program_writes(program: str, tmp_path: Path) -> None:
@@ -44,6 +44,8 @@ def test_a_file_gives_what_the_program_writes(program: str, tmp_path: Path) -> N
     for name in ["history.csv", "summary.json", "resolved.toml"]:
         assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "program" / name).read_bytes(), name
     assert cd.read(tmp_path / "program") == result
+    subprocess.run([program, "report", str(tmp_path / "python")], check=True, capture_output=True)
+    assert (tmp_path / "python/history.svg").is_file() and (tmp_path / "python/index.html").is_file()
 
 
 def test_fields_and_profiles_share_the_memory_of_the_result_and_come_back_from_a_folder(tmp_path: Path) -> None:

@@ -34,7 +34,7 @@ def test_files_give_what_the_program_writes(program: str, tmp_path: Path) -> Non
     drawn_by(program, tmp_path / "python", "energy-loss")
     assert cd.read(out) == cd.read(tmp_path / "python") == result == pickle.loads(pickle.dumps(result))
     assert len(result.cycles) == len(LOOPS) and result.cycles[0].load.shape == (201,)
-    assert result["file"][0].endswith(".csv") and "<polyline" in result._repr_html_()
+    assert result["file"][0].endswith(".csv") and "<title>load" in result._repr_html_()
     # Of a smooth loop of 200 samples the polygon is low by 0.02 %.
     area = [0.5 * abs(np.dot(c.load[:-1], np.roll(c.approach[:-1], -1)) - np.dot(c.approach[:-1], np.roll(c.load[:-1], -1)))
             for c in result.cycles]

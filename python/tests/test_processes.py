@@ -132,33 +132,3 @@ def test_other_threads_of_python_run_meanwhile() -> None:
     thread.join()
     # One in a millisecond at best; a held lock would let none through.
     assert counted_meanwhile > 50 * elapsed
-
-
-def test_a_thousand_calls_of_one_case_take_less_than_five_seconds() -> None:
-    pmma = cd.Material.library("pmma")
-    options: dict[str, Any] = {"mean": 10.0, "amplitude": 5.0, "angular_frequency": [1e-2], "springs": 16, "steps": 16}
-    started = time.process_time()
-    for _ in range(1000):
-        cd.sweep(pmma, SPHERE, threads=1, error_bars=False, **options)
-    elapsed = time.process_time() - started
-    print(f"\n1000 calls: {elapsed:.2f} s of one core")
-    assert elapsed < 5.0
-
-
-def test_a_call_costs_less_than_a_millisecond_beyond_its_solution() -> None:
-    pmma = cd.Material.library("pmma")
-
-    def shortest(omega: list[float], calls: int) -> float:
-        options: dict[str, Any] = {"mean": 10.0, "amplitude": 5.0, "angular_frequency": omega, "springs": 16, "steps": 16}
-        times = []
-        for _ in range(calls):
-            started = time.perf_counter()
-            cd.sweep(pmma, SPHERE, threads=1, error_bars=False, **options)
-            times.append(time.perf_counter() - started)
-        return min(times)
-
-    # Cases that differ by a hundredth of a per cent cost the same, and their curve has no peak.
-    one, many = shortest([1e-2], 50), shortest(np.linspace(1e-2, 1.0001e-2, 101).tolist(), 5)
-    overhead = one - (many - one) / 100
-    print(f"\none case: {1e3 * one:.3f} ms, of these beyond its solution {1e3 * overhead:.3f} ms")
-    assert overhead < 1e-3

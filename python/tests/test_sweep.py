@@ -6,6 +6,7 @@ import dataclasses
 import html
 import io
 import pickle
+import re
 import subprocess
 import sys
 from collections import Counter
@@ -156,7 +157,6 @@ def test_axes_vary_indenter_and_drive() -> None:
     plain = small_sweep(angular_frequency=[0.01, 0.1])
     same = (result["indenter_radius_m"] == 0.01) & (result["drive_amplitude"] == 5.0)
     assert result["energy_loss_j"][same].tolist() == plain["energy_loss_j"].tolist()
-    assert len(result._curves()[0]) == 4
 
 
 def test_a_case_without_result_is_nan_and_says_why() -> None:
@@ -324,18 +324,15 @@ def test_pandas_and_notebooks_get_a_table_and_a_curve(result: cd.SweepResult) ->
     frame = result.to_pandas()
     assert frame.shape == (5, len(result)) and frame["energy_loss_j"].tolist() == result["energy_loss_j"].tolist()
     page = result._repr_html_()
-    assert page.count("<polyline") == 1 and "energy loss" in page and "peak of" in page
-    # Of frequencies every decade, and the peak.
-    assert all(f">{tick}</text>" in page for tick in ["0.001", "0.01", "0.1"]) and page.count("<circle") == len(result.peaks)
+    assert page.count("<svg") == 1 and "<title>energy loss per cycle / µJ against" in page and page.count("<li>peak of") == len(result.peaks)
     assert result._ipython_key_completions_() == list(result)
 
 
-def test_curves_of_a_notebook_have_colours_and_names() -> None:
-    several = small_sweep(axes={"drive.amplitude": [2.0, 5.0]})
-    page = several._repr_html_()
-    colours = {line.split('"')[0] for line in page.split('stroke="')[1:]} - {"#888"}
-    assert page.count("<polyline") == 2 and len(colours) == 2
-    assert "drive_amplitude 2</text>" in page and "drive_amplitude 5</text>" in page
+def test_curves_of_a_notebook_have_colours_of_their_own(result: cd.SweepResult) -> None:
+    def colours(shown: cd.SweepResult) -> set[str]:
+        return set(re.findall('stroke="(#[0-9a-f]+)"', shown._repr_html_()))
+
+    assert len(colours(small_sweep(axes={"drive.amplitude": [2.0, 5.0]}))) == len(colours(result)) + 1
 
 
 def test_without_pandas_it_is_said_what_to_install(result: cd.SweepResult, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -21,7 +21,7 @@ pub struct Call {
     /// In Python: `sweep`, `zener`, `FlatPunch`.
     pub name: String,
     pub of: CallOf,
-    /// What it makes; empty for a function.
+    /// What it makes, or is; empty for a function.
     pub about: &'static str,
     /// Arguments that may be given by their places; the others have names.
     pub positional: usize,
@@ -403,12 +403,13 @@ fn material((form, places, data): (&'static str, &[&str], &[Own])) -> Call {
 /// The arguments of a class of indenters: the keys of its shape, and where it stands.
 fn indenter(shape: &'static str, places: &[&str]) -> Call {
     let ways = ways("indenter", shape);
+    let about = ways.first().map_or("", |way| way.means.trim());
     let own = ways.iter().flat_map(|way| way.keys.iter().copied());
     let beside = own_keys_of("indenter").into_iter();
     let beside = beside.filter(|row| row.name == "offset");
     let arguments = own.chain(beside).map(|row| of_key("indenter", row));
     call(
-        (class(shape), CallOf::Indenter, ""),
+        (class(shape), CallOf::Indenter, about),
         places,
         arguments.collect(),
     )

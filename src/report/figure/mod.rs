@@ -56,7 +56,11 @@ impl From<Chart> for Picture {
 }
 
 impl Picture {
-    pub(super) fn draw(&self) -> Result<Drawing, ChartError> {
+    /// Lays it out.
+    ///
+    /// # Errors
+    /// [`ChartError`] why it cannot be drawn.
+    pub fn draw(&self) -> Result<Drawing, ChartError> {
         chart::stack(&self.0)
     }
 }
