@@ -19,38 +19,35 @@ def body(name):
 
     def register(function):
         _BODIES[name] = function
-        arguments = next(arguments for _, call, *_, arguments in _CALLS if call == name)
-        _public(globals()[name], inspect.cleandoc(function.__doc__), arguments)
+        _say(globals()[name], inspect.cleandoc(function.__doc__), next(call for call in _CALLS if call["name"] == name))
         return function
 
     return register
 
 
-def _public(function, text, arguments):
-    lines = [f"    {name}: {means}" for name, _, _, _, means in arguments]
+def _say(function, text, call):
+    lines = [f"    {argument['name']}: {argument['means']}" for argument in call["arguments"]]
     function.__doc__ = text.replace("{arguments}", "Args:\n" + "\n".join(lines))
 
 
 def _parameter(argument, kind):
-    name, _, annotation, default, _ = argument
-    default = inspect.Parameter.empty if default is None else json.loads(default)
-    return inspect.Parameter(name, kind, annotation=annotation, default=default)
+    default = argument.get("default", inspect.Parameter.empty)
+    return inspect.Parameter(argument["name"], kind, annotation=argument["annotation"], default=default)
 
 
-def _made(name, positional, arguments, do, first=None):
+def _made(name, call, do, first=None):
     """A function of these arguments, which hands those that are given to `do`."""
+    arguments = call["arguments"]
     by_place, by_name = inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY
-    kinds = [by_place] * positional + [by_name] * len(arguments)
+    kinds = [by_place] * call["positional"] + [by_name] * len(arguments)
     parameters = [inspect.Parameter(first, by_place)] if first else []
     signature = inspect.Signature([*parameters, *map(_parameter, arguments, kinds)])
-    keys = {argument[0]: argument[1] for argument in arguments if argument[1]}
-    KEYS[name] = keys
-    lists = {argument[0] for argument in arguments if re.search("ArrayLike|Sequence|Mapping|BulkModulus", argument[2])}
-
+    keys = KEYS[name] = {argument["name"]: argument["key"] for argument in arguments if argument["key"]}
+    lists = {argument["name"] for argument in arguments if re.search("ArrayLike|Sequence|Mapping|BulkModulus", argument["annotation"])}
     # Keys that must be in a file, and have a default in Python alone.
-    needed = {argument[0]: "longitudinal" for argument in arguments if argument[3] == '"longitudinal"'}
+    needed = {argument["name"]: "longitudinal" for argument in arguments if argument.get("default") == "longitudinal"}
 
-    def call(*args, **given):
+    def function(*args, **given):
         bound = signature.bind(*args, **given)
         chosen = needed | {name: value for name, value in bound.arguments.items() if value is not None}
         for name in chosen.keys() & keys.keys() - lists:
@@ -61,30 +58,33 @@ def _made(name, positional, arguments, do, first=None):
         others = {name: value for name, value in bound.arguments.items() if name not in keys}
         return do(by_key, **others)
 
-    call.__name__ = call.__qualname__ = name
-    call.__module__ = __package__
-    call.__signature__ = signature
-    return call
+    function.__name__ = function.__qualname__ = name
+    function.__module__ = __package__
+    function.__signature__ = signature
+    return function
 
 
-def _function(name, _, positional, arguments):
-    return _made(name, positional, arguments, lambda keys, **others: _BODIES[name](keys, **others))
+def _function(name, call):
+    return _made(name, call, lambda keys, **others: _BODIES[name](keys, **others))
 
 
-def _form(name, about, positional, arguments):
-    made = _made(name, positional, arguments, lambda keys, cls, **data: cls._of_form(name, keys, **data), "cls")
-    _public(made, f"{about}\n\n{{arguments}}", arguments)
+def _form(name, call):
+    made = _made(name, call, lambda keys, cls, **data: cls._of_form(name, keys, **data), "cls")
+    _say(made, f"{call['about']}\n\n{{arguments}}", call)
     return classmethod(made)
 
 
-def _shape(name, about, positional, arguments):
+def _shape(name, call):
     word = re.sub("(?<!^)(?=[A-Z])", "-", name).lower()
-    made = _made("__init__", positional, arguments, lambda keys, self: self._made_of(word, keys), "self")
-    _public(made, "{arguments}", arguments)
-    return type(name, (), {"__slots__": (), "__init__": made, "__doc__": about})
+    made = _made("__init__", call, lambda keys, self, **data: self._made_of(word, keys, **data), "self")
+    _say(made, "{arguments}", call)
+    return type(name, (), {"__slots__": (), "__init__": made, "__doc__": call["about"]})
 
 
-_CALLS = _core.calls()
-MaterialForms = type("MaterialForms", (), {"__slots__": ()} | {call[0]: _form(*call) for of, *call in _CALLS if of == "Material"})
-globals().update({call[0]: _function(*call) for of, *call in _CALLS if not of})
-globals().update({call[0]: _shape(*call) for of, *call in _CALLS if of == "Indenter"})
+def _all(of, make):
+    return {call["name"]: make(call["name"], call) for call in _CALLS if call["of"] == of}
+
+
+_CALLS = json.loads(_core.calls())
+MaterialForms = type("MaterialForms", (), {"__slots__": ()} | _all("Material", _form))
+globals().update(_all("Module", _function) | _all("Indenter", _shape))

@@ -504,6 +504,46 @@ class PowerLaw:
             offset: Moves the indenter along x and y. An array of two, each a length.
         """
 
+class Profile:
+    def __init__(
+        self,
+        file: str | PathLike[str],
+        *,
+        sha256: str | None = None,
+        offset: ArrayLike | None = None,
+    ) -> None:
+        """A profile of revolution: columns `r_m`, `gap_m`, from the axis outwards.
+        Args:
+            file: A file with these columns.
+            sha256: SHA-256 of the data file, in hexadecimal, to make sure that it has not changed. A string.
+            offset: Moves the indenter along x and y. An array of two, each a length.
+        """
+
+class HeightMap:
+    def __init__(
+        self,
+        heights: ArrayLike | PathLike[str],
+        spacing: ArrayLike | None = None,
+        *,
+        sha256: str | None = None,
+        quantity: Literal["height", "gap"] = "height",
+        height_unit: Literal["m", "mm", "um", "µm", "nm", "pm"] = "m",
+        level: Literal["none", "mean", "plane"] = "none",
+        edge: Literal["unknown", "rim", "periodic"] = "unknown",
+        offset: ArrayLike | None = None,
+    ) -> None:
+        """A measured surface: a matrix (CSV or `.npy`), or columns `x_m`, `y_m`, `z_m`.
+        Args:
+            heights: An array of shape (cells along y, cells along x), first row at the smallest y, which is copied once, into the memory of the library; or a file (CSV, ``.npy``).
+            spacing: Distance between points of a matrix, or one for x and one for y; not for files with columns `x_m`, `y_m`, `z_m`. An array of two, each a length above zero.
+            sha256: SHA-256 of the data file, in hexadecimal, to make sure that it has not changed. A string.
+            quantity: Whether values are heights, positive towards the half-space, or gaps. "height" or "gap".
+            height_unit: Unit of the values of a matrix. "m", "mm", "um", "µm", "nm" or "pm".
+            level: What is subtracted from the values first: nothing, their mean, or the best-fit plane. "none", "mean" or "plane".
+            edge: What lies outside the map: unknown, so the contact must stay within; nothing (`rim`); or periodic repetitions of the map (`periodic`), under a prescribed load. "unknown", "rim" or "periodic".
+            offset: Moves the indenter along x and y. An array of two, each a length.
+        """
+
 class Rough:
     def __init__(
         self,

@@ -672,10 +672,9 @@ class Warning:
         A sentence.
         """
 
-def calls() -> list[tuple[str, str, str, int, list[tuple[str, str, str, str | None, str]]]]:
+def calls() -> str:
     """
-    What takes keys of the input files as its arguments: the class that it belongs to, or "", name, meaning, arguments by place,
-    arguments.
+    What takes keys of the input files as its arguments, as JSON.
     """
 
 def identify_material(source: "object", threads: SupportsIndex | None) -> tuple[str, list[str], list[tuple[str, bytes]]]:

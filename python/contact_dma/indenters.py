@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -42,9 +42,10 @@ class Indenter:
         self._text = _toml.table("indenter", {"shape": shape, **entries})
         self._core = _core.Shape(f"{type(self).__name__}(...)", self._text)
 
-    def _made_of(self, shape: str, keys: Mapping[str, Any]) -> None:
-        """As `_made`, of keys by their dotted names."""
-        self._made(shape, **{name.removeprefix("indenter."): entry for name, entry in keys.items()})
+    def _made_of(self, shape: str, keys: Mapping[str, Any], file: str | os.PathLike[str] | None = None) -> None:
+        """As `_made`, of keys by their dotted names, and of a file."""
+        data = {} if file is None else {"file": _toml.path(file)}
+        self._made(shape, **data, **{name.removeprefix("indenter."): entry for name, entry in keys.items()})
 
     def gap(self, x: npt.ArrayLike, y: npt.ArrayLike = 0.0) -> Any:
         """Gap (m) between the undeformed indenter and the half-space at points x, y (m), which broadcast; inf where it ends.
@@ -106,19 +107,12 @@ class PowerLaw(_calls.PowerLaw, Indenter):
     __slots__ = ()
 
 
+class Profile(_calls.Profile, Indenter):
+    __slots__ = ()
+
+
 class Rough(_calls.Rough, Indenter):
     __slots__ = ()
-
-
-class Profile(Indenter):
-    """A body of revolution of a file with the columns ``r_m`` and ``gap_m``, from the axis outwards."""
-
-    __slots__ = ()
-
-    def __init__(
-        self, file: str | os.PathLike[str], *, offset: tuple[Quantity, Quantity] | None = None
-    ) -> None:
-        self._made("profile", file=_toml.path(file), offset=offset)
 
 
 class Asperities(Indenter):
@@ -147,19 +141,8 @@ class Asperities(Indenter):
         self._call = f"Asperities of {len(rows)}"
 
 
-class HeightMap(Indenter):
+class HeightMap(_calls.HeightMap, Indenter):
     """A measured or computed surface, one value per cell of a regular grid that is centred on the origin.
-
-    Args:
-        heights: an array of shape (cells along y, cells along x), first row at the smallest y; or a file (CSV, ``.npy``).
-        spacing: distance of the points (m), or one for x and one for y. A file with coordinates has its own.
-        quantity: ``"height"``, positive towards the half-space, or ``"gap"``.
-        height_unit: unit of the values, ``"m"`` where it is left out.
-        level: what is taken off: ``"none"``, ``"mean"`` or ``"plane"``.
-        edge: what is beyond the border: ``"unknown"``, so that contact there is an error, or ``"rim"``, the end of the indenter,
-                or ``"periodic"``, the map again and again, under a prescribed load.
-
-    An array is copied once, into the memory of the library.
 
     Example:
         >>> import numpy as np
@@ -173,41 +156,21 @@ class HeightMap(Indenter):
 
     __slots__ = ()
 
-    def __init__(
-        self,
-        heights: npt.ArrayLike | os.PathLike[str],
-        spacing: Quantity | Sequence[Quantity] | None = None,
-        *,
-        quantity: Literal["height", "gap"] | None = None,
-        height_unit: str | None = None,
-        level: Literal["none", "mean", "plane"] | None = None,
-        edge: Literal["unknown", "rim", "periodic"] | None = None,
-        offset: tuple[Quantity, Quantity] | None = None,
-    ) -> None:
-        is_one = spacing is None or isinstance(spacing, str) or not _toml.is_list(spacing)
-        spacings = [spacing] if is_one and spacing is not None else spacing
-        entries: dict[str, Any] = {
-            "spacing": spacings,
-            "quantity": quantity,
-            "height_unit": height_unit,
-            "level": level,
-            "edge": edge,
-            "offset": offset,
-        }
+    def _made_of(self, shape: str, keys: Mapping[str, Any], heights: Any = None) -> None:
         if isinstance(heights, (str, os.PathLike)):
-            self._made("height-map", file=_toml.path(heights), **entries)
+            super()._made_of(shape, keys, heights)
             return
         values = _toml.si(heights, "m", "heights") if _toml.has_unit(heights) else np.asarray(heights, dtype=np.float64)
-        if _toml.has_unit(heights) and height_unit is not None:
+        if _toml.has_unit(heights) and "indenter.height_unit" in keys:
             raise ValueError("heights have a unit already: leave out height_unit")
         if values.ndim != 2:
             raise ValueError(f"heights have shape {values.shape}: give an array of rows along y and columns along x")
-        if offset is not None:
+        if "indenter.offset" in keys:
             raise ValueError("a map of an array has no offset: its grid is centred on the origin")
         rows, columns = values.shape
         self._text = None
         self._call = f"HeightMap of {columns} x {rows} points"
-        text = _toml.table("indenter", {"shape": "height-map", **entries})
+        text = _toml.document(_toml.tables({"indenter.shape": shape, **keys}))
         self._core = _core.Shape.of_heights("HeightMap(...)", text, values)
 
     @property

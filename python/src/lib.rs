@@ -26,6 +26,7 @@ mod _contact_dma {
     use crate::blocks::placed;
     #[pymodule_export]
     use crate::body::Body;
+    use crate::failure;
     #[pymodule_export]
     use crate::history::History;
     #[pymodule_export]
@@ -39,7 +40,7 @@ mod _contact_dma {
     use crate::shape::Shape;
     #[pymodule_export]
     use crate::sweep::Sweep;
-    use contact_dma::input::python_calls::{self, CallOf};
+    use contact_dma::input::python_calls;
     use contact_dma::material::library;
     use pyo3::prelude::*;
 
@@ -53,37 +54,9 @@ mod _contact_dma {
         entries.map(|e| (e.name, e.title, e.source)).collect()
     }
 
-    /// An argument: name, key, type, what counts without it as JSON, and meaning.
-    type Argument = (&'static str, String, String, Option<String>, String);
-
-    /// What takes keys of the input files as its arguments: the class that it belongs to, or "", name, meaning, arguments by place,
-    /// arguments.
+    /// What takes keys of the input files as its arguments, as JSON.
     #[pyfunction]
-    fn calls() -> Vec<(&'static str, String, &'static str, usize, Vec<Argument>)> {
-        let calls = python_calls::calls().into_iter().map(|call| {
-            let of = match call.of {
-                CallOf::Module => "",
-                CallOf::Material => "Material",
-                CallOf::Indenter => "Indenter",
-            };
-            let arguments = call.arguments.into_iter().map(|argument| {
-                let default = argument.default.map(|value| value.to_string());
-                (
-                    argument.name,
-                    argument.key,
-                    argument.annotation,
-                    default,
-                    argument.means,
-                )
-            });
-            (
-                of,
-                call.name,
-                call.about,
-                call.positional,
-                arguments.collect(),
-            )
-        });
-        calls.collect()
+    fn calls() -> PyResult<String> {
+        serde_json::to_string(&python_calls::calls()).map_err(failure::of_run)
     }
 }

@@ -3,6 +3,7 @@
 
 mod stubs;
 
+use serde::Serialize;
 use serde_json::{Value as Json, json};
 
 use super::document::kind::json_of;
@@ -17,6 +18,7 @@ use stubs::annotation;
 pub use stubs::stubs;
 
 /// A function, a constructor of a material, or the arguments of a class of indenters.
+#[derive(Serialize)]
 pub struct Call {
     /// In Python: `sweep`, `zener`, `FlatPunch`.
     pub name: String,
@@ -29,7 +31,7 @@ pub struct Call {
 }
 
 /// Where a call belongs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub enum CallOf {
     Module,
     Material,
@@ -37,6 +39,7 @@ pub enum CallOf {
 }
 
 /// An argument.
+#[derive(Serialize)]
 pub struct Argument {
     pub name: &'static str,
     /// The dotted key that it stands for; empty for what is no key.
@@ -44,6 +47,7 @@ pub struct Argument {
     /// Its type, as Python writes it.
     pub annotation: String,
     /// What counts where it is left out; `None` where it must be there.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub default: Option<Json>,
     pub means: String,
 }
@@ -68,7 +72,7 @@ pub fn calls() -> Vec<Call> {
         ),
     ];
     calls.extend(FORMS.iter().map(|form| material(*form)));
-    calls.extend(SHAPES.iter().map(|(shape, places)| indenter(shape, places)));
+    calls.extend(SHAPES.iter().map(|shape| indenter(*shape)));
     calls
 }
 
@@ -133,14 +137,24 @@ const DYNAMIC: [Own; 7] = [
 ];
 
 /// The same of shapes.
-const SHAPES: [(&str, &[&str]); 6] = [
-    ("sphere", &["radius"]),
-    ("cone", &["half_angle"]),
-    ("flat-punch", &["radius"]),
-    ("ellipsoid", &["radius_x", "radius_y"]),
-    ("power-law", &["exponent"]),
-    ("rough", &["cells"]),
+const SHAPES: [(&str, &[&str], &[Own]); 8] = [
+    ("sphere", &["radius"], &[]),
+    ("cone", &["half_angle"], &[]),
+    ("flat-punch", &["radius"], &[]),
+    ("ellipsoid", &["radius_x", "radius_y"], &[]),
+    ("power-law", &["exponent"], &[]),
+    ("profile", &["file"], &[PROFILE]),
+    ("height-map", &["heights", "spacing"], &[HEIGHTS]),
+    ("rough", &["cells"], &[]),
 ];
+
+const PROFILE: Own = ("file", "str | PathLike[str]", "A file with these columns.");
+const HEIGHTS: Own = (
+    "heights",
+    "ArrayLike | PathLike[str]",
+    "An array of shape (cells along y, cells along x), first row at the smallest y, which is copied once, into the memory of the library; \
+     or a file (CSV, ``.npy``).",
+);
 
 /// Arguments that are no keys, or tables whose form in Python is another: name, type, meaning.
 type Own = (&'static str, &'static str, &'static str);
@@ -401,13 +415,15 @@ fn material((form, places, data): (&'static str, &[&str], &[Own])) -> Call {
 }
 
 /// The arguments of a class of indenters: the keys of its shape, and where it stands.
-fn indenter(shape: &'static str, places: &[&str]) -> Call {
+fn indenter((shape, places, data): (&'static str, &[&str], &[Own])) -> Call {
     let ways = ways("indenter", shape);
     let about = ways.first().map_or("", |way| way.means.trim());
-    let own = ways.iter().flat_map(|way| way.keys.iter().copied());
+    let own_keys = ways.iter().flat_map(|way| way.keys.iter().copied());
+    let own_keys = own_keys.filter(|key| data.is_empty() || !DATA_KEYS.contains(&key.name));
     let beside = own_keys_of("indenter").into_iter();
     let beside = beside.filter(|row| row.name == "offset");
-    let arguments = own.chain(beside).map(|row| of_key("indenter", row));
+    let keys = own_keys.chain(beside).map(|row| of_key("indenter", row));
+    let arguments = data.iter().map(|data| own(*data)).chain(keys);
     call(
         (class(shape), CallOf::Indenter, about),
         places,
