@@ -15,8 +15,9 @@ maturin generate-stubs --quiet --features stubs --out "$made" "$@"
 # Arrays of NumPy are the only types that PyO3 does not know; the class of a constructor that it makes of fields it calls self.
 {
     echo "# Written by python/stubs.sh from the compiled module."
-    echo "from numpy import complex128, float64"
-    echo "from numpy.typing import NDArray"
+    echo "from numpy import float64"
+    echo "from numpy.typing import ArrayLike, NDArray"
+    echo "from .materials import ModulusKind"
     sed 's/^from _typeshed import Incomplete, /from _typeshed import /; s/\bIncomplete\b/NDArray[float64]/g; s/__new__(self/__new__(cls/' "$made/$written"
 } > "$made/stubs.pyi"
 if $check; then

@@ -1,6 +1,7 @@
 # Written by python/stubs.sh from the compiled module.
-from numpy import complex128, float64
-from numpy.typing import NDArray
+from numpy import float64
+from numpy.typing import ArrayLike, NDArray
+from .materials import ModulusKind
 from _typeshed import SupportsGetItem
 from os import PathLike
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
@@ -16,8 +17,6 @@ class Body:
     A material that was read from its block of a sweep file.
     """
     def __new__(cls, /, name: str, text: str, tables: SupportsGetItem[int, tuple[str, str]] = ...) -> Body: ...
-    def _complex_modulus(self, /, angular_frequency: NDArray[float64], modulus: str) -> "NDArray[complex128]": ...
-    def _creep_compliance(self, /, time: NDArray[float64], modulus: str) -> NDArray[float64]: ...
     def _fitted(self, /) -> tuple[list[str], list[str], list[str], list[tuple[str, bytes]]] | None:
         """
         How the series was fitted; `None` of a material that was not fitted to data.
@@ -28,11 +27,32 @@ class Body:
         Whether it is a series, which sweeps take, and not samples as they are.
         """
     def _prony(self, /) -> tuple[float, NDArray[float64], NDArray[float64]]: ...
-    def _relaxation_modulus(self, /, time: NDArray[float64], modulus: str) -> NDArray[float64]: ...
     @property
     def bulk_modulus(self, /) -> float | None:
         """
         Bulk modulus (Pa), where it is constant in time in place of the Poisson ratio.
+        """
+    def complex_modulus(self, /, angular_frequency: "ArrayLike", *, modulus: "ModulusKind" = "longitudinal") -> "Any":
+        """
+        Complex modulus E' + i E'' (Pa), or G' + i G''.
+
+        Args:
+            angular_frequency: angular frequencies (rad/s), of any shape.
+            modulus: Young's or shear modulus.
+
+        Returns:
+            complex numbers of the same shape.
+        """
+    def creep_compliance(self, /, time: "ArrayLike", *, modulus: "ModulusKind" = "longitudinal") -> "Any":
+        """
+        Creep compliance D(t) (1/Pa), or J(t).
+
+        Args:
+            time: times (s), of any shape.
+            modulus: ``"longitudinal"`` for D, ``"shear"`` for J.
+
+        Returns:
+            numbers of the same shape.
         """
     @property
     def name(self, /) -> str | None:
@@ -43,6 +63,17 @@ class Body:
     def poisson_ratio(self, /) -> float | None:
         """
         Poisson ratio, where it is constant in time.
+        """
+    def relaxation_modulus(self, /, time: "ArrayLike", *, modulus: "ModulusKind" = "longitudinal") -> "Any":
+        """
+        Relaxation modulus E(t) (Pa), or G(t).
+
+        Args:
+            time: times (s), of any shape.
+            modulus: Young's or shear modulus.
+
+        Returns:
+            numbers of the same shape.
         """
     @property
     def temperature(self, /) -> float | None:

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from . import _calls, _toml
 from . import _contact_dma as _core
 from ._result import Floats
-from .materials import Quantity, _mapped
+from .materials import Quantity
 
 
 class Indenter:
@@ -55,8 +55,7 @@ class Indenter:
             1.25e-05
         """
         first, second = np.broadcast_arrays(_toml.si(x, "m", "x"), _toml.si(y, "m", "y"))
-        line = np.ascontiguousarray(second).reshape(-1)
-        return _mapped(lambda places: self._core.gap(places, line), first, "m")
+        return self._core.gap(first.ravel(), second.ravel()).reshape(first.shape)[()]
 
     def __eq__(self, other: object) -> bool:
         """Whether shape and settings are the same, and of maps of arrays the gaps."""

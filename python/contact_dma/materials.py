@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal, NamedTuple, TypeAlias, Union
 
 import numpy as np
@@ -68,8 +68,11 @@ class Material(MaterialForms, _core.Body):
         >>> pmma = cd.Material.library("pmma")
         >>> pmma
         Material('PMMA', instantaneous=2.49e+09, equilibrium=1.97e+09, poisson_ratio=0.38)
-        >>> bool(abs(pmma.complex_modulus(1.0)) > pmma.prony.equilibrium)
-        True
+        >>> bool(abs(pmma.complex_modulus(1.0)) > pmma.prony.equilibrium), pmma.complex_modulus([0.01, 0.1]).shape
+        (True, (2,))
+        >>> e, d = pmma.relaxation_modulus([0.0, 1000.0]), pmma.creep_compliance([0.0, 1000.0])
+        >>> bool(e[1] < e[0]), bool(d[1] > d[0])
+        (True, True)
         >>> rubber = cd.Material.relaxation("2 MPa", [("8 MPa", "1 ms"), (5e6, 0.1)], poisson_ratio=0.5)
         >>> rubber.prony.moduli.tolist()
         [8000000.0, 5000000.0]
@@ -210,58 +213,6 @@ class Material(MaterialForms, _core.Body):
         """
         return Prony(*self._prony())
 
-    def complex_modulus(
-        self, angular_frequency: npt.ArrayLike, *, modulus: ModulusKind = "longitudinal"
-    ) -> Any:
-        """Complex modulus E' + i E'' (Pa), or G' + i G''.
-
-        Args:
-            angular_frequency: angular frequencies (rad/s), of any shape.
-            modulus: Young's or shear modulus.
-
-        Returns:
-            complex numbers of the same shape.
-
-        Example:
-            >>> Material.library("pmma").complex_modulus([0.01, 0.1]).shape
-            (2,)
-        """
-        return _mapped(lambda omega: self._complex_modulus(omega, modulus), angular_frequency, "rad/s")
-
-    def creep_compliance(self, time: npt.ArrayLike, *, modulus: ModulusKind = "longitudinal") -> Any:
-        """Creep compliance D(t) (1/Pa), or J(t).
-
-        Args:
-            time: times (s), of any shape.
-            modulus: ``"longitudinal"`` for D, ``"shear"`` for J.
-
-        Returns:
-            numbers of the same shape.
-
-        Example:
-            >>> d = Material.library("pmma").creep_compliance([0.0, 1000.0])
-            >>> bool(d[1] > d[0])
-            True
-        """
-        return _mapped(lambda t: self._creep_compliance(t, modulus), time, "s")
-
-    def relaxation_modulus(self, time: npt.ArrayLike, *, modulus: ModulusKind = "longitudinal") -> Any:
-        """Relaxation modulus E(t) (Pa), or G(t).
-
-        Args:
-            time: times (s), of any shape.
-            modulus: Young's or shear modulus.
-
-        Returns:
-            numbers of the same shape.
-
-        Example:
-            >>> e = Material.library("pmma").relaxation_modulus([0.0, 1000.0])
-            >>> bool(e[1] < e[0])
-            True
-        """
-        return _mapped(lambda t: self._relaxation_modulus(t, modulus), time, "s")
-
     def __repr__(self) -> str:
         parts = [repr(self.name)] if self.name else []
         if self._is_series:
@@ -297,13 +248,6 @@ def _restored(text: str, source: str, fit: MaterialFit | None) -> Material:
     material = Material._of("the pickled material", text)
     material._source, material._fit = source, fit
     return material
-
-
-def _mapped(of_line: Callable[[Floats], npt.NDArray[Any]], given: npt.ArrayLike, unit: str) -> Any:
-    """What a function of a line of numbers makes of numbers in any shape; a number of a number."""
-    array = _toml.si(given, unit, "the argument")
-    made = of_line(np.ascontiguousarray(array).reshape(-1)).reshape(array.shape)
-    return made[()]
 
 
 def library_materials() -> dict[str, str]:

@@ -1,8 +1,9 @@
 //! Numbers of the library as arrays of NumPy.
 
 use numpy::ndarray::{ArrayView1, ArrayView2};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use numpy::{Element, IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
 use contact_dma::report::quantities::Named;
 use contact_dma::report::table::Cell;
@@ -21,6 +22,22 @@ fn numbers(values: impl IntoIterator<Item = Option<f64>>) -> Vec<f64> {
 /// The same as an array.
 pub fn nullable(py: Python<'_>, values: impl IntoIterator<Item = Option<f64>>) -> Line {
     numbers(values).into_pyarray(py).unbind()
+}
+
+/// What a function makes of numbers in any shape, in this unit where they have none: as many, or one of one.
+pub fn mapped<'py, T: Element>(
+    given: &Bound<'py, PyAny>,
+    unit: &str,
+    of: impl Fn(f64) -> T,
+) -> PyResult<Bound<'py, PyAny>> {
+    let py = given.py();
+    let si = py.import("contact_dma._toml")?.getattr("si")?;
+    let numbers = si.call1((given, unit, "the argument"))?;
+    let line: PyReadonlyArray1<'_, f64> = numbers.call_method0("ravel")?.extract()?;
+    let made: Vec<T> = line.as_array().iter().map(|number| of(*number)).collect();
+    let made = made.into_pyarray(py);
+    let made = made.call_method1("reshape", (numbers.getattr("shape")?,))?;
+    made.get_item(PyTuple::empty(py))
 }
 
 /// A list that its owner holds, as an array that cannot be written to; nothing is copied.

@@ -9,13 +9,12 @@ use contact_dma::material::{Material, MaterialError, ModulusKind};
 use contact_dma::report::dynamic::{DynamicReport, Source};
 use contact_dma::simulation::body_material::BodyMaterial;
 use contact_dma::sweep::plan::resolved::material_text;
-use num_complex::Complex;
-use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::measured::{Files, bytes};
-use crate::{failure, wait};
+use crate::{arrays, failure, wait};
 
 /// A material that was read from its block of a sweep file.
 #[pyclass(frozen, subclass, module = "contact_dma._contact_dma")]
@@ -126,51 +125,62 @@ impl Body {
         self.material.series()?.origin.temperature_k
     }
 
-    #[pyo3(signature = (angular_frequency, modulus) -> "NDArray[complex128]")]
-    fn _complex_modulus<'py>(
+    /// Complex modulus E' + i E'' (Pa), or G' + i G''.
+    ///
+    /// Args:
+    ///     angular_frequency: angular frequencies (rad/s), of any shape.
+    ///     modulus: Young's or shear modulus.
+    ///
+    /// Returns:
+    ///     complex numbers of the same shape.
+    #[pyo3(signature = (angular_frequency: "ArrayLike", *, modulus: "ModulusKind" = "longitudinal") -> "Any")]
+    fn complex_modulus<'py>(
         &self,
-        py: Python<'py>,
-        angular_frequency: PyReadonlyArray1<'py, f64>,
+        angular_frequency: &Bound<'py, PyAny>,
         modulus: &str,
-    ) -> PyResult<Bound<'py, PyArray1<Complex<f64>>>> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let (material, kind) = (self.series()?, kind(modulus)?);
-        let of = |omega: &f64| match kind {
-            ModulusKind::Longitudinal => material.longitudinal_complex_modulus(*omega),
-            ModulusKind::Shear => material.shear_complex_modulus(*omega),
-        };
-        let all: Vec<_> = angular_frequency.as_array().iter().map(of).collect();
-        Ok(all.into_pyarray(py))
+        arrays::mapped(angular_frequency, "rad/s", |omega| match kind {
+            ModulusKind::Longitudinal => material.longitudinal_complex_modulus(omega),
+            ModulusKind::Shear => material.shear_complex_modulus(omega),
+        })
     }
 
-    fn _creep_compliance<'py>(
+    /// Creep compliance D(t) (1/Pa), or J(t).
+    ///
+    /// Args:
+    ///     time: times (s), of any shape.
+    ///     modulus: ``"longitudinal"`` for D, ``"shear"`` for J.
+    ///
+    /// Returns:
+    ///     numbers of the same shape.
+    #[pyo3(signature = (time: "ArrayLike", *, modulus: "ModulusKind" = "longitudinal") -> "Any")]
+    fn creep_compliance<'py>(
         &self,
-        py: Python<'py>,
-        time: PyReadonlyArray1<'py, f64>,
+        time: &Bound<'py, PyAny>,
         modulus: &str,
-    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let creep = self.series()?.creep_as(kind(modulus)?);
         let creep = creep.map_err(failure::of_value)?;
-        let all: Vec<f64> = time
-            .as_array()
-            .iter()
-            .map(|t| creep.compliance(*t))
-            .collect();
-        Ok(all.into_pyarray(py))
+        arrays::mapped(time, "s", |time| creep.compliance(time))
     }
 
-    fn _relaxation_modulus<'py>(
+    /// Relaxation modulus E(t) (Pa), or G(t).
+    ///
+    /// Args:
+    ///     time: times (s), of any shape.
+    ///     modulus: Young's or shear modulus.
+    ///
+    /// Returns:
+    ///     numbers of the same shape.
+    #[pyo3(signature = (time: "ArrayLike", *, modulus: "ModulusKind" = "longitudinal") -> "Any")]
+    fn relaxation_modulus<'py>(
         &self,
-        py: Python<'py>,
-        time: PyReadonlyArray1<'py, f64>,
+        time: &Bound<'py, PyAny>,
         modulus: &str,
-    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    ) -> PyResult<Bound<'py, PyAny>> {
         let relaxation = self.relaxation(modulus)?;
-        let all: Vec<f64> = time
-            .as_array()
-            .iter()
-            .map(|t| relaxation.modulus(*t))
-            .collect();
-        Ok(all.into_pyarray(py))
+        arrays::mapped(time, "s", |time| relaxation.modulus(time))
     }
 
     fn _prony<'py>(&self, py: Python<'py>) -> PyResult<Prony<'py>> {

@@ -57,6 +57,24 @@ impl Drop for Ended<'_> {
     }
 }
 
+/// Until the flag is set, or a signal's handler or what else is heard raises.
+fn wait(py: Python<'_>, flag: &AtomicBool, mut hear: impl FnMut() -> PyResult<()>) -> PyResult<()> {
+    while !flag.load(Ordering::Acquire) {
+        py.detach(|| thread::park_timeout(POLL));
+        py.check_signals().and_then(|()| hear())?;
+    }
+    Ok(())
+}
+
+/// What a thread has made.
+fn made<T>(joined: thread::Result<T>) -> PyResult<T> {
+    joined.map_err(|_| {
+        PyRuntimeError::new_err(
+            "the computation stopped by an error of the program; please report it with your input",
+        )
+    })
+}
+
 /// Does the work on a thread of its own. A signal whose handler raises, or a callback that does, sets `interrupt`, and the exception is
 /// raised when the work has ended.
 pub fn run<T: Send>(
@@ -66,7 +84,7 @@ pub fn run<T: Send>(
     work: impl FnOnce() -> T + Send,
 ) -> PyResult<T> {
     let flag = AtomicBool::new(false);
-    let (mut told, mut raised) = (None, None);
+    let mut told = None;
     let joined = thread::scope(|scope| {
         let ended = Ended {
             flag: &flag,
@@ -76,25 +94,15 @@ pub fn run<T: Send>(
             let _ended = ended;
             work()
         });
-        while !flag.load(Ordering::Acquire) {
-            py.detach(|| thread::park_timeout(POLL));
-            if raised.is_none() {
-                let heard = py.check_signals().and_then(|()| watch.tell(&mut told));
-                if let Err(exception) = heard {
-                    interrupt.store(true, Ordering::Relaxed);
-                    raised = Some(exception);
-                }
-            }
+        let heard = wait(py, &flag, || watch.tell(&mut told));
+        if heard.is_err() {
+            interrupt.store(true, Ordering::Relaxed);
         }
-        worker.join()
+        let joined = py.detach(|| worker.join());
+        heard.map(|()| joined)
     });
-    match (raised, joined) {
-        (Some(exception), _) => Err(exception),
-        (None, Ok(made)) => watch.tell(&mut told).map(|()| made),
-        (None, Err(_)) => Err(PyRuntimeError::new_err(
-            "the computation stopped by an error of the program; please report it with your input",
-        )),
-    }
+    let made = made(joined?)?;
+    watch.tell(&mut told).map(|()| made)
 }
 
 /// As [`run`], on so many threads, one per processor where it is not said. Without a watch nobody hears of progress.
@@ -131,14 +139,6 @@ pub fn run_unheard<T: Send + 'static>(
         };
         work(&heard)
     });
-    while !flag.load(Ordering::Acquire) {
-        py.detach(|| thread::park_timeout(POLL));
-        py.check_signals()
-            .inspect_err(|_| interrupt.store(true, Ordering::Relaxed))?;
-    }
-    worker.join().map_err(|_| {
-        PyRuntimeError::new_err(
-            "the computation stopped by an error of the program; please report it with your input",
-        )
-    })
+    wait(py, &flag, || Ok(())).inspect_err(|_| interrupt.store(true, Ordering::Relaxed))?;
+    made(worker.join())
 }
