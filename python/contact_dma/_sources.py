@@ -28,7 +28,22 @@ class Source:
     indenter: _core.Shape | None = None
 
 
-def source_of_file(call: str, first: Any, indenter: Any, overrides: Mapping[str, Any] | None, others: Mapping[str, Any]) -> Source:
+def source_of(
+    call: str, keys: Mapping[str, Any], material: Any, indenter: Any, overrides: Mapping[str, Any] | None, others: Mapping[str, Any]
+) -> Source:
+    """Of material and indenter, of which a sweep may have several by their names, or of a file in place of both."""
+    materials: tuple[type[Any], ...] = (Material, Mapping) if call == "sweep" else (Material,)
+    indenters: tuple[type[Any], ...] = (Indenter, Mapping) if call == "sweep" else (Indenter,)
+    if not isinstance(material, materials):
+        return _source_of_file(call, material, indenter, overrides, {**keys, **others})
+    if not isinstance(indenter, indenters):
+        raise ValueError(f"{call}(material, indenter, ...): the second argument is an indenter, such as Sphere(0.01)")
+    if overrides is not None:
+        raise ValueError("overrides change a file; write options as arguments: steps=48 in place of {'cycle.steps': 48}")
+    return source_of_values(call, keys, material, indenter, **others)
+
+
+def _source_of_file(call: str, first: Any, indenter: Any, overrides: Mapping[str, Any] | None, others: Mapping[str, Any]) -> Source:
     """A file that is given in place of material and indenter."""
     if isinstance(first, Indenter):
         raise ValueError(f"{call}(material, indenter, ...): the material comes first, then the indenter")
@@ -61,8 +76,10 @@ def axes_of(given: Any) -> dict[str, Any]:
     return dict(given)
 
 
-def warn_without_effect(call: str, keys: Mapping[str, Any], resolved: str) -> None:
-    """Warns of options that the engine or the method does not look at."""
+def warn_without_effect(call: str, source: Source, keys: Mapping[str, Any], resolved: str) -> None:
+    """Warns of options that the engine or the method does not look at, where these are arguments."""
+    if source.text is None:
+        return
     chosen = dict(re.findall(r'(?m)^(engine|method) = "(.*)"$', resolved))
     idle: dict[tuple[str, str], dict[str, str]] = {
         ("engine", "axisymmetric"): {"solver.cells": "cells", "solver.tolerance": "solver_tolerance"},

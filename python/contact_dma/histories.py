@@ -13,7 +13,7 @@ from ._contact_dma import Field as Field
 from ._contact_dma import SurfaceLine as SurfaceLine
 from ._contact_dma import SurfaceProfile as SurfaceProfile
 from ._result import Columns, Result, arrays, heard
-from ._sources import source_of_file, source_of_values, thread_count, warn_without_effect
+from ._sources import source_of, thread_count, warn_without_effect
 from .indenters import Indenter
 from .materials import Material
 
@@ -85,17 +85,8 @@ def _simulate(
         >>> bool(creep["approach_m"][-1] > creep["approach_m"][1])
         True
     """
-    told = heard(progress)
-    if isinstance(material, Material):
-        if not isinstance(indenter, Indenter):
-            raise ValueError("simulate(material, indenter, ...): the second argument is an indenter, such as Sphere(0.01)")
-        if overrides is not None:
-            raise ValueError("overrides change a file; write options as arguments")
-        source = source_of_values("simulate", keys, material, indenter, **bodies)
-    else:
-        source = source_of_file("simulate", material, indenter, overrides, {**keys, **bodies})
-        keys = {}
-    result = HistoryResult(source, thread_count(threads), told)
-    warn_without_effect("simulate", keys, result.resolved)
+    source = source_of("simulate", keys, material, indenter, overrides, bodies)
+    result = HistoryResult(source, thread_count(threads), heard(progress))
+    warn_without_effect("simulate", source, keys, result.resolved)
     result._warn_of_failures("simulate")
     return result

@@ -239,7 +239,7 @@ def _identify(
     keys = {"identify.data": name, **keys}
     source = source_of_values("identify", keys, None, indenter, tables=tables, **bodies)
     found = _identified(source, threads)
-    warn_without_effect("identify", keys, dict(found._files)["resolved.toml"].decode("utf-8"))
+    warn_without_effect("identify", source, keys, dict(found._files)["resolved.toml"].decode("utf-8"))
     return found
 
 

@@ -15,7 +15,7 @@ from ._contact_dma import Peak as Peak
 from ._contact_dma import PressureLine as PressureLine
 from ._contact_dma import PressureProfile as PressureProfile
 from ._result import Result, failures, heard
-from ._sources import source_of_file, source_of_values, thread_count, warn_without_effect
+from ._sources import source_of, thread_count, warn_without_effect
 from .indenters import Indenter
 from .materials import Material
 
@@ -124,17 +124,8 @@ def _sweep(
         >>> result["energy_loss_j"] > 0
         array([ True])
     """
-    told = heard(progress)
-    if isinstance(material, (Material, Mapping)):
-        if not isinstance(indenter, (Indenter, Mapping)):
-            raise ValueError("sweep(material, indenter, ...): the second argument is an indenter, such as Sphere(0.01)")
-        if overrides is not None:
-            raise ValueError("overrides change a file; write options as arguments: steps=48 in place of {'cycle.steps': 48}")
-        source = source_of_values("sweep", keys, material, indenter, **bodies)
-    else:
-        source = source_of_file("sweep", material, indenter, overrides, {**keys, **bodies})
-        keys = {}
-    result = SweepResult(source, thread_count(threads), told)
-    warn_without_effect("sweep", keys, result.resolved)
+    source = source_of("sweep", keys, material, indenter, overrides, bodies)
+    result = SweepResult(source, thread_count(threads), heard(progress))
+    warn_without_effect("sweep", source, keys, result.resolved)
     result._warn_of_failures("sweep")
     return result

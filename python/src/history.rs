@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 
 use contact_dma::contact::surface::{CellSurface, Surface};
 use contact_dma::input::scenario_file;
@@ -23,7 +23,7 @@ use crate::folder::{self, Opening};
 use crate::record::{Field, Items, SurfaceLine, SurfaceProfile, Warning, picture};
 use crate::shape::Shape;
 use crate::source::{Origin, Packed, Source, reduced};
-use crate::wait::{self, Counter, Watch};
+use crate::wait::{self, Job};
 use crate::{arrays, failure};
 
 /// What a drive history came to.
@@ -240,17 +240,11 @@ fn simulated(
     let plan = scenario_file::plan_with(&document, &given);
     let plan = plan.map_err(|found| failure::of_input(&found))?;
     let simulation = Simulation::new(plan).map_err(failure::of_value)?;
-    let interrupt = Arc::new(AtomicBool::new(false));
-    let simulation = simulation.interrupted_by(Arc::clone(&interrupt));
-    let counter = Counter::default();
-    let watch = Watch {
-        counter: &counter,
-        callback: progress,
-    };
-    counter.total.store(simulation.moments(), Ordering::Relaxed);
-    let outcome = wait::run_on_threads(py, (threads, &interrupt), Some(&watch), || {
-        let told = |done: usize, _: usize| counter.done.store(done, Ordering::Relaxed);
-        simulation.run(&interrupt, &told)
+    let job = Job::of(simulation.moments());
+    let simulation = simulation.interrupted_by(Arc::clone(&job.interrupt));
+    let outcome = wait::run_on_threads(py, threads, (&job, progress), || {
+        let told = |done: usize, _: usize| job.done.store(done, Ordering::Relaxed);
+        simulation.run(&job.interrupt, &told)
     })?;
     if outcome.ended == SimulationEnd::Interrupted {
         return Err(PyKeyboardInterrupt::new_err("interrupted"));

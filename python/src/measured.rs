@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 
 use contact_dma::identify::{IdentifyError, curves, identify};
 use contact_dma::input::diagnostic::Diagnostics;
@@ -26,7 +26,7 @@ use rayon::prelude::*;
 
 use crate::record::{Items, MeasuredCycle, Status, Warning, picture};
 use crate::source::{Source, reduced};
-use crate::wait;
+use crate::wait::{self, Job};
 use crate::{arrays, failure};
 
 /// A record of load and approach: of a file, or columns in memory with their name.
@@ -248,10 +248,10 @@ pub fn identify_material<'py>(
     let (document, given) = (source.document()?, source.given());
     let plan = identify_file::plan_with(&document, &given);
     let plan = plan.map_err(|found| failure::of_input(&found))?;
-    let interrupt = AtomicBool::new(false);
-    let made = wait::run_on_threads(py, (threads, &interrupt), None, || {
-        let found = identify(&plan, &interrupt)?;
-        let curves = curves(&plan, &found, &interrupt)?;
+    let job = Job::default();
+    let made = wait::run_on_threads(py, threads, (&job, None), || {
+        let found = identify(&plan, &job.interrupt)?;
+        let curves = curves(&plan, &found, &job.interrupt)?;
         Ok((found, curves))
     })?;
     let (found, curves) = made.map_err(|error| match error {

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
+use std::sync::{Arc, Mutex};
 
 use contact_dma::input::document::Document;
 use contact_dma::input::given::Given;
@@ -12,7 +12,7 @@ use contact_dma::input::sweep_file;
 use contact_dma::report::{cycles, figure, quantities, summary, sweep_tables};
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::resolved::{hash, resolved_text};
-use contact_dma::sweep::plan::{Case, SweepPlan, Varied};
+use contact_dma::sweep::plan::{SweepPlan, Varied};
 use contact_dma::sweep::record::{self, CaseRecord, RecordedCycle};
 use contact_dma::sweep::search;
 use contact_dma::sweep::search::run::{self, Mode, Outcome, Progress};
@@ -28,8 +28,8 @@ use crate::record::{
     AxisValue, Cycle, Items, Line, Peak, PressureLine, PressureProfile, Status, Warning, picture,
 };
 use crate::shape::Shape;
-use crate::source::{Origin, Packed, Source, reduced};
-use crate::wait::{self, Counter, Watch};
+use crate::source::{Origin, Packed, reduced};
+use crate::wait::{self, Job};
 use crate::{arrays, failure};
 
 /// Where the records of a result are.
@@ -60,21 +60,21 @@ pub struct Sweep {
     notes: Vec<String>,
 }
 
-/// Counts the cases that are done.
-struct Count<'a> {
-    counter: &'a Counter,
-    notes: &'a std::sync::Mutex<Vec<String>>,
+/// Counts the cases that are done, and keeps what is met on the way.
+struct Count {
+    job: Job,
+    notes: Mutex<Vec<String>>,
 }
 
-impl Progress for Count<'_> {
+impl Progress for Count {
     fn case_finished(&self, _: &CaseRecord) {
-        self.counter.done.fetch_add(1, Ordering::Relaxed);
+        self.job.done.fetch_add(1, Ordering::Relaxed);
     }
 
     fn locating_peaks(&self, _: usize) {}
 
     fn cases_found(&self, done: usize, _: usize) {
-        self.counter.done.fetch_add(done, Ordering::Relaxed);
+        self.job.done.fetch_add(done, Ordering::Relaxed);
     }
 
     fn notice(&self, what: &str) {
@@ -95,14 +95,41 @@ impl Sweep {
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         match origin {
-            Origin::Call(source) => solved(py, &source, threads, progress.as_ref()),
+            Origin::Call(source) => {
+                let (document, given) = (source.document()?, source.given());
+                let made = (Records::Memory(records::Records::default()), source.map());
+                swept(
+                    py,
+                    (&document, &given),
+                    made,
+                    (true, threads),
+                    progress.as_ref(),
+                )
+            }
             Origin::Packed(packed) => {
                 let (document, given) = packed.document("the pickled sweep")?;
                 let memory = records::Records::from_bytes(packed.3.as_bytes(py));
                 let memory = Records::Memory(memory.ok_or_else(failure::of_other_build)?);
-                collected(py, &document, &given, memory, (packed.2, packed.4))
+                let threads = NonZeroUsize::new(packed.4);
+                swept(
+                    py,
+                    (&document, &given),
+                    (memory, packed.2),
+                    (false, threads),
+                    None,
+                )
             }
-            Origin::Folder(folder) => read(py, &folder),
+            Origin::Folder(folder) => {
+                let (store, document) = folder::document(&folder)?;
+                let (made, threads) = ((Records::Folder(store), None), Some(NonZeroUsize::MIN));
+                swept(
+                    py,
+                    (&document, &Given::default()),
+                    made,
+                    (false, threads),
+                    None,
+                )
+            }
         }
     }
 
@@ -354,96 +381,48 @@ impl Sweep {
     }
 }
 
-/// Solves every case of a sweep and locates the peaks.
-fn solved(
+/// Cases that are solved at once to locate a peak.
+const PEAK_CASES: usize = 5;
+
+/// Solves every case of a sweep and locates the peaks, or finds what the records say of both, without solving anything.
+fn swept(
     py: Python<'_>,
-    source: &Source<'_>,
-    threads: Option<NonZeroUsize>,
+    (document, given): (&Document, &Given),
+    (records, shape): (Records, Option<Py<Shape>>),
+    (is_solved, threads): (bool, Option<NonZeroUsize>),
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Sweep> {
     let clock = Stopwatch::start();
-    let (document, given) = (source.document()?, source.given());
-    let plan = sweep_file::plan_with(&document, &given);
+    let plan = sweep_file::plan_with(document, given);
     let plan = plan.map_err(|found| failure::of_input(&found))?;
-    let interrupt = Arc::new(AtomicBool::new(false));
     let setup = Setup::new(plan).map_err(failure::of_value)?;
-    let setup = setup.interrupted_by(Arc::clone(&interrupt));
-    let memory = records::Records::default();
-    let counter = Counter::default();
-    let cases: Vec<Case> = setup.plan().cases();
-    counter.total.store(cases.len(), Ordering::Relaxed);
-    let watch = Watch {
-        counter: &counter,
-        callback: progress,
+    let cases = setup.plan().cases().len();
+    let count = Count {
+        job: Job::of(cases),
+        notes: Mutex::default(),
     };
+    let job = &count.job;
+    let setup = setup.interrupted_by(Arc::clone(&job.interrupt));
     // More threads than cases have nothing to do until peaks are located, which takes a few for each.
-    let threads = run::useful_threads(threads).min(cases.len().max(1) * PEAK_CASES);
-    let notes = std::sync::Mutex::default();
-    let made = wait::run(py, &interrupt, &watch, || {
-        let count = Count {
-            counter: &counter,
-            notes: &notes,
-        };
-        run::run(
-            &setup,
-            &memory,
-            Mode::on_threads(threads),
-            &interrupt,
-            &count,
-        )
+    let threads = run::useful_threads(threads).min(cases.max(1) * PEAK_CASES);
+    let mode = match is_solved {
+        true => Mode::on_threads(threads),
+        false => Mode::Read,
+    };
+    let made = wait::run(py, job, progress, || {
+        run::run(&setup, records.archive(), mode, &job.interrupt, &count)
     })?;
     let outcome = made.map_err(|error| failure::of_sweep(&error))?;
-    if outcome.interrupted {
+    if is_solved && outcome.interrupted {
         return Err(PyKeyboardInterrupt::new_err("interrupted"));
     }
     Ok(Sweep {
         plan: setup.plan().clone(),
         outcome,
-        records: Records::Memory(memory),
-        shape: source.map(),
-        clock,
-        threads,
-        notes: notes.into_inner().unwrap_or_default(),
-    })
-}
-
-/// Cases that are solved at once to locate a peak.
-const PEAK_CASES: usize = 5;
-
-/// The result in a folder of the program.
-fn read(py: Python<'_>, folder: &Path) -> PyResult<Sweep> {
-    let (store, document) = folder::document(folder)?;
-    let records = Records::Folder(store);
-    collected(py, &document, &Given::default(), records, (None, 1))
-}
-
-/// What records say, without solving anything.
-fn collected(
-    py: Python<'_>,
-    document: &Document,
-    given: &Given,
-    records: Records,
-    (shape, threads): (Option<Py<Shape>>, usize),
-) -> PyResult<Sweep> {
-    let plan = sweep_file::plan_with(document, given);
-    let plan = plan.map_err(|found| failure::of_input(&found))?;
-    let setup = Setup::new(plan).map_err(failure::of_value)?;
-    let counter = Counter::default();
-    let notes = std::sync::Mutex::default();
-    let count = Count {
-        counter: &counter,
-        notes: &notes,
-    };
-    let found =
-        py.detach(|| run::run(&setup, records.archive(), Mode::Read, &false.into(), &count));
-    let outcome = found.map_err(|error| failure::of_sweep(&error))?;
-    Ok(Sweep {
-        plan: setup.plan().clone(),
-        outcome,
         records,
         shape,
-        clock: Stopwatch::start(),
+        clock,
         threads,
-        notes: notes.into_inner().unwrap_or_default(),
+        notes: count.notes.into_inner().unwrap_or_default(),
     })
 }

@@ -15,30 +15,35 @@ use crate::failure;
 /// How often signals are looked for and progress is told.
 const POLL: Duration = Duration::from_millis(50);
 
-/// How far work has come.
+/// How far work has come, and whether it is to end before its time.
 #[derive(Debug, Default)]
-pub struct Counter {
+pub struct Job {
     pub done: AtomicUsize,
-    pub total: AtomicUsize,
+    pub total: usize,
+    pub interrupt: Arc<AtomicBool>,
 }
 
-/// Who hears of progress: called with what is done and how much there is in all.
-pub struct Watch<'a, 'py> {
-    pub counter: &'a Counter,
-    pub callback: Option<&'a Bound<'py, PyAny>>,
-}
+impl Job {
+    /// So much of work that is looked at and can be interrupted.
+    pub fn of(total: usize) -> Self {
+        Self {
+            total,
+            ..Self::default()
+        }
+    }
 
-impl Watch<'_, '_> {
-    fn tell(&self, told: &mut Option<(usize, usize)>) -> PyResult<()> {
-        let now = (
-            self.counter.done.load(Ordering::Relaxed),
-            self.counter.total.load(Ordering::Relaxed),
-        );
-        if let Some(callback) = self.callback
+    /// Calls who hears of progress with what is done and how much there is in all, where that has changed.
+    fn tell(
+        &self,
+        progress: Option<&Bound<'_, PyAny>>,
+        told: &mut Option<(usize, usize)>,
+    ) -> PyResult<()> {
+        let now = (self.done.load(Ordering::Relaxed), self.total);
+        if let Some(progress) = progress
             && *told != Some(now)
         {
             *told = Some(now);
-            callback.call1(now)?;
+            progress.call1(now)?;
         }
         Ok(())
     }
@@ -75,12 +80,12 @@ fn made<T>(joined: thread::Result<T>) -> PyResult<T> {
     })
 }
 
-/// Does the work on a thread of its own. A signal whose handler raises, or a callback that does, sets `interrupt`, and the exception is
-/// raised when the work has ended.
+/// Does the work on a thread of its own. A signal whose handler raises, or a callback that does, interrupts the job, and the exception
+/// is raised when the work has ended.
 pub fn run<T: Send>(
     py: Python<'_>,
-    interrupt: &AtomicBool,
-    watch: &Watch<'_, '_>,
+    job: &Job,
+    progress: Option<&Bound<'_, PyAny>>,
     work: impl FnOnce() -> T + Send,
 ) -> PyResult<T> {
     let flag = AtomicBool::new(false);
@@ -94,33 +99,26 @@ pub fn run<T: Send>(
             let _ended = ended;
             work()
         });
-        let heard = wait(py, &flag, || watch.tell(&mut told));
+        let heard = wait(py, &flag, || job.tell(progress, &mut told));
         if heard.is_err() {
-            interrupt.store(true, Ordering::Relaxed);
+            job.interrupt.store(true, Ordering::Relaxed);
         }
         let joined = py.detach(|| worker.join());
         heard.map(|()| joined)
     });
     let made = made(joined?)?;
-    watch.tell(&mut told).map(|()| made)
+    job.tell(progress, &mut told).map(|()| made)
 }
 
-/// As [`run`], on so many threads, one per processor where it is not said. Without a watch nobody hears of progress.
+/// As [`run`], on so many threads, one per processor where it is not said.
 pub fn run_on_threads<T: Send>(
     py: Python<'_>,
-    (threads, interrupt): (Option<NonZeroUsize>, &AtomicBool),
-    watch: Option<&Watch<'_, '_>>,
+    threads: Option<NonZeroUsize>,
+    (job, progress): (&Job, Option<&Bound<'_, PyAny>>),
     work: impl FnOnce() -> T + Send,
 ) -> PyResult<T> {
     let pool = pool(useful_threads(threads)).map_err(|error| failure::of_sweep(&error))?;
-    let counter = Counter::default();
-    let nobody = Watch {
-        counter: &counter,
-        callback: None,
-    };
-    run(py, interrupt, watch.unwrap_or(&nobody), || {
-        pool.install(work)
-    })
+    run(py, job, progress, || pool.install(work))
 }
 
 /// Does work that cannot be interrupted at any moment; after Ctrl-C it goes on unheard, to its end or until it looks at the flag that it

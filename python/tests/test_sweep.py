@@ -20,7 +20,7 @@ import tqdm
 from conftest import ROOT, small_sweep
 
 import contact_dma as cd
-from contact_dma import sweeps
+from contact_dma import _sources
 from contact_dma._sources import Source, source_of_values
 
 COARSE = {"solver.springs": 32, "cycle.steps": 32}
@@ -282,7 +282,7 @@ def test_a_thousand_named_materials_are_one_document_and_their_cycles_are_asked_
         sources.append(source_of_values(*given, **named))
         return sources[-1]
 
-    monkeypatch.setattr(sweeps, "source_of_values", noted)
+    monkeypatch.setattr(_sources, "source_of_values", noted)
     materials = {f"m{k}": cd.Material.zener(1e6 + k, "2 MPa", "1 s", poisson_ratio=0.5) for k in range(1000)}
     result = cd.sweep(materials, cd.Sphere("10 mm"), **options)
     # A change of a document reads it anew: one for each name were quadratic.
