@@ -708,9 +708,9 @@ def calls() -> str:
     What takes keys of the input files as its arguments, as JSON.
     """
 
-def identify_material(source: "object", threads: SupportsIndex | None) -> tuple[str, list[str], list[tuple[str, bytes]]]:
+def identify_material(source: "object", threads: SupportsIndex | None) -> list[tuple[str, bytes]]:
     """
-    A material from measured cycles: its block, and every file of the folder.
+    A material from measured cycles: every file of its folder.
     """
 
 def library_materials() -> list[tuple[str, str, str]]:

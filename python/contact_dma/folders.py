@@ -38,17 +38,12 @@ def read(folder: str | os.PathLike[str]) -> SweepResult | HistoryResult | Analys
     path = Path(_toml.path(folder))
     if not path.is_dir():
         raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), os.fspath(folder))
-    analysis, block = path / "analysis.json", path / "material.toml"
+    analysis = path / "analysis.json"
     if analysis.is_file() and not (path / "resolved.toml").exists():
         return AnalysisResult(analysis.read_bytes())
-    if block.is_file() and (path / "fit.csv").is_file():
+    if (path / "material.toml").is_file() and (path / "fit.csv").is_file():
         names = ["material.toml", "resolved.toml", "prony.csv", "fit.csv", "moduli.csv", "summary.json", "figures.json"]
-        files = [(name, (path / name).read_bytes()) for name in names if (path / name).is_file()]
-        text = block.read_text(encoding="utf-8")
-        comments = [line.removeprefix("# ") for line in text.splitlines() if line.startswith("# ")]
-        # Below the title; what goes on in another line begins with blanks.
-        report = "\n".join(comments[1:]).replace("\n  ", " ").splitlines()
-        return IdentifiedMaterial(text, report, files)
+        return IdentifiedMaterial([(name, (path / name).read_bytes()) for name in names if (path / name).is_file()])
     if (path / "history.csv").is_file():
         return HistoryResult(path)
     return SweepResult(path)

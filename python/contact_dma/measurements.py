@@ -147,10 +147,13 @@ class IdentifiedMaterial:
         report: what was found, one sentence a line.
     """
 
-    def __init__(self, block: str, report: Sequence[str], files: Sequence[tuple[str, bytes]]) -> None:
+    def __init__(self, files: Sequence[tuple[str, bytes]]) -> None:
+        self._files = dict(files)
+        block = self._files["material.toml"].decode("utf-8")
         self.material = Material._of("the identified material", block)
-        self.report = tuple(report)
-        self._files = list(files)
+        comments = [line.removeprefix("# ") for line in block.splitlines() if line.startswith("# ")]
+        # Below the title; what goes on in another line begins with blanks.
+        self.report = tuple("\n".join(comments[1:]).replace("\n  ", " ").splitlines())
 
     @property
     def prony(self) -> Prony:
@@ -160,18 +163,18 @@ class IdentifiedMaterial:
     @property
     def summary(self) -> dict[str, Any]:
         """What the program writes to ``summary.json``: unknowns with intervals, candidates, what is not determined."""
-        summary: dict[str, Any] = json.loads(dict(self._files)["summary.json"])
+        summary: dict[str, Any] = json.loads(self._files["summary.json"])
         return summary
 
     @property
     def fit(self) -> Columns:
         """Data and model, the columns of ``fit.csv``."""
-        return table(dict(self._files)["fit.csv"])
+        return table(self._files["fit.csv"])
 
     @property
     def moduli(self) -> Columns:
         """E' and E'' with their bands over frequency, the columns of ``moduli.csv``."""
-        return table(dict(self._files)["moduli.csv"])
+        return table(self._files["moduli.csv"])
 
     def save(self, folder: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Writes the tables that ``contact-dma identify`` writes: ``material.toml``, ``prony.csv``, ``fit.csv``, ``moduli.csv``,
@@ -181,7 +184,7 @@ class IdentifiedMaterial:
             folder: a new or empty folder, or one of an identification.
             overwrite: whether another result there is replaced; files of others stay.
         """
-        _core.write_identification(os.fspath(folder), self._files, overwrite)
+        _core.write_identification(os.fspath(folder), list(self._files.items()), overwrite)
 
     def __repr__(self) -> str:
         return f"<IdentifiedMaterial of {len(self.prony.moduli)} branches>"
@@ -239,12 +242,12 @@ def _identify(
     keys = {"identify.data": name, **keys}
     source = source_of_values("identify", keys, None, indenter, tables=tables, **bodies)
     found = _identified(source, threads)
-    warn_without_effect("identify", source, keys, dict(found._files)["resolved.toml"].decode("utf-8"))
+    warn_without_effect("identify", source, keys, found._files["resolved.toml"].decode("utf-8"))
     return found
 
 
 def _identified(source: Source, threads: int | None) -> IdentifiedMaterial:
-    found = IdentifiedMaterial(*_core.identify_material(source, thread_count(threads)))
+    found = IdentifiedMaterial(_core.identify_material(source, thread_count(threads)))
     for line in found.report:
         if line.startswith("Warning: "):
             warn(f"identify: {line.removeprefix('Warning: ')}")

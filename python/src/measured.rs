@@ -237,14 +237,14 @@ pub fn bytes<N: Into<String>>(py: Python<'_>, files: Vec<(N, Vec<u8>)>) -> Files
         .collect()
 }
 
-/// A material from measured cycles: its block, and every file of the folder.
+/// A material from measured cycles: every file of its folder.
 #[pyfunction]
 #[pyo3(signature = (source: "object", threads))]
 pub fn identify_material<'py>(
     py: Python<'py>,
     source: Source<'py>,
     threads: Option<NonZeroUsize>,
-) -> PyResult<(String, Vec<String>, Files<'py>)> {
+) -> PyResult<Files<'py>> {
     let (document, given) = (source.document()?, source.given());
     let plan = identify_file::plan_with(&document, &given);
     let plan = plan.map_err(|found| failure::of_input(&found))?;
@@ -269,7 +269,7 @@ pub fn identify_material<'py>(
     let block = report.block().map_err(failure::of_run)?;
     let kept = KeptFigures::of_identification(&report, &block);
     let files = with_figures(report.files(&block), kept)?;
-    Ok((block, report.lines(), bytes(py, files)))
+    Ok(bytes(py, files))
 }
 
 /// A number with its unit, in the SI unit of the quantity that is expected. Frequencies in Hz and in rad/s are read as one another.

@@ -81,6 +81,19 @@ def test_a_history_that_was_read_is_saved_whole(tmp_path: Path) -> None:
     assert again.profiles == result.profiles and result.cycles.to_pandas().shape[0] == 2
 
 
+def test_the_damaged_folder_of_a_history_is_refused_with_file_and_line(tmp_path: Path) -> None:
+    held().save(tmp_path)
+    table = tmp_path / "history.csv"
+    head, first, *rows = table.read_text().splitlines()
+    table.write_text("\n".join([head, first, "abc" + rows[0][rows[0].index(",") :], *rows[1:]]) + "\n")
+    with pytest.raises(ValueError, match=r"history\.csv:3"):
+        cd.read(tmp_path)
+    table.write_text("\n".join([head, first]) + "\n")
+    (tmp_path / "summary.json").write_text("{}")
+    with pytest.raises(ValueError, match=r"summary\.json"):
+        cd.read(tmp_path)
+
+
 def test_a_history_that_ends_early_warns_and_can_raise() -> None:
     far = [{"kind": "ramp", "to": "1 mm", "duration": "1 s"}]
     x = np.linspace(-1e-4, 1e-4, 17)
