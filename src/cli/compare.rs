@@ -35,17 +35,17 @@ pub(super) struct CompareFlags {
     /// The same of what is compared with it
     new: PathBuf,
     /// Relative difference allowed
-    #[arg(long, value_name = "R", default_value = "1e-6", value_parser = tolerance)]
+    #[arg(long, value_name = "R", allow_negative_numbers = true, default_value = "1e-6", value_parser = tolerance)]
     relative: f64,
     /// Absolute difference allowed, in SI units, on top
-    #[arg(long, value_name = "A", default_value = "0", value_parser = tolerance)]
+    #[arg(long, value_name = "A", allow_negative_numbers = true, default_value = "0", value_parser = tolerance)]
     absolute: f64,
     /// Relative difference allowed in one column (of the frequency: in the frequencies of the peaks); may be repeated
     #[arg(long, value_name = "COLUMN=R", value_parser = column_tolerance)]
     tolerance: Vec<(String, f64)>,
     /// Judge by the peaks: relative difference allowed in their frequencies and losses, beyond the uncertainty with which they were
     /// located
-    #[arg(long, value_name = "R", num_args = 0..=1, default_missing_value = "1e-3", value_parser = tolerance)]
+    #[arg(long, value_name = "R", num_args = 0..=1, allow_negative_numbers = true, default_missing_value = "1e-3", value_parser = tolerance)]
     peaks: Option<f64>,
     #[command(flatten)]
     to: OutFlags,

