@@ -21,6 +21,7 @@ if ! "$python" -m pip install --quiet --disable-pip-version-check --retries 1 \
 fi
 cmp LICENSE-MIT python/licenses/LICENSE-MIT
 cmp LICENSE-APACHE python/licenses/LICENSE-APACHE
+cmp src/report/fonts/LICENSE-DejaVu.txt python/licenses/LICENSE-DejaVu.txt
 # The profile of the tests of the crate, whose dependencies are built already; the wheel that users build is the same but for speed.
 (
     export CARGO_TARGET_DIR="$target" PATH="$work/venv/bin:$PATH"
@@ -38,7 +39,7 @@ names = zipfile.ZipFile(sys.argv[1]).namelist()
 print(f"{os.path.basename(sys.argv[1])}: {size:.1f} MB")
 assert size < 8, "the wheel is larger than 8 MB"
 assert any(n.endswith("py.typed") for n in names) and any(n.endswith(".pyi") for n in names), names
-assert {os.path.basename(n) for n in names if "licenses/" in n} >= {"LICENSE-MIT", "LICENSE-APACHE"}, names
+assert {os.path.basename(n) for n in names if "licenses/" in n} >= {"LICENSE-MIT", "LICENSE-APACHE", "LICENSE-DejaVu.txt"}, names
 assert not any(n.endswith((".ttf", ".otf")) for n in names), names
 EOF
 # Away from the sources, so that what is tested is what was installed.
