@@ -60,10 +60,7 @@ pub(super) fn write_result<N: Into<String>>(
     (figures, setting, drawn): (&[Figure], &Setting, bool),
     page: impl FnOnce(&Pictures, &str) -> Result<String, ReportError>,
 ) -> Result<(), Failure> {
-    let kept = KeptFigures::of(figures, setting, |pictures| match figures.first() {
-        Some(first) => page(pictures, first.name),
-        None => Ok(String::new()),
-    })?;
+    let kept = KeptFigures::with_page(figures, setting, page)?;
     write_kept(target, result, kept, drawn)
 }
 

@@ -278,10 +278,15 @@ fn of_key(path: &str, key: &Key) -> Argument {
 /// Makes an argument one that may be left out.
 fn optional(mut argument: Argument) -> Argument {
     argument.default = argument.default.or(Some(Json::Null));
-    if !argument.annotation.ends_with("None") {
-        argument.annotation.push_str(" | None");
-    }
+    or_none(&mut argument.annotation);
     argument
+}
+
+/// Makes a type one that may be None.
+fn or_none(annotation: &mut String) {
+    if !annotation.ends_with("None") {
+        annotation.push_str(" | None");
+    }
 }
 
 /// A function of a kind of file: the keys of some of its tables, and what else it takes.
@@ -444,8 +449,8 @@ fn call(
     let mut arguments = arguments;
     arguments.sort_by_key(place);
     for argument in &mut arguments {
-        if argument.default == Some(Json::Null) && !argument.annotation.ends_with("None") {
-            argument.annotation.push_str(" | None");
+        if argument.default == Some(Json::Null) {
+            or_none(&mut argument.annotation);
         }
     }
     Call {

@@ -56,14 +56,9 @@ impl KeptFigures {
     /// [`ReportError`] naming the page.
     pub fn of_loops(analysis: &Analysis) -> Result<(Self, Vec<String>), ReportError> {
         let figures = figure::measured::figures(analysis);
-        Self::of(
-            &figures,
-            &Setting::default(),
-            |pictures| match &figures[..] {
-                [] => Ok(String::new()),
-                figures => page::measured::page(analysis, figures, pictures),
-            },
-        )
+        Self::with_page(&figures, &Setting::default(), |pictures, _| {
+            page::measured::page(analysis, &figures, pictures)
+        })
     }
 
     /// The same of an identification, whose material has this block.
@@ -75,14 +70,24 @@ impl KeptFigures {
         block: &str,
     ) -> Result<(Self, Vec<String>), ReportError> {
         let figures = figure::identify::figures(report);
-        Self::of(
-            &figures,
-            &Setting::default(),
-            |pictures| match &figures[..] {
-                [] => Ok(String::new()),
-                figures => page::identify::page(report, figures, block, pictures),
-            },
-        )
+        Self::with_page(&figures, &Setting::default(), |pictures, _| {
+            page::identify::page(report, &figures, block, pictures)
+        })
+    }
+
+    /// These figures, and a page, which is made of the pictures and the name of the first one; without figures there is no page.
+    ///
+    /// # Errors
+    /// [`ReportError`] naming the page.
+    pub fn with_page(
+        figures: &[Figure],
+        setting: &Setting,
+        page: impl FnOnce(&Pictures, &str) -> Result<String, ReportError>,
+    ) -> Result<(Self, Vec<String>), ReportError> {
+        Self::of(figures, setting, |pictures| match figures.first() {
+            Some(first) => page(pictures, first.name),
+            None => Ok(String::new()),
+        })
     }
 
     /// These figures, and the page that is made of their pictures, empty where there is none. A figure that cannot be drawn is left
