@@ -161,7 +161,7 @@ fn a_long_case_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
         .replace("method = \"march\"\ntolerance = 1e-9", "tolerance = 1e-12")
         .replace("steps = 200", "steps = 100000");
     let cells = LONG
-        .replace("20 rad/s", "2 rad/s")
+        .replace("20 rad/s", "0.6 rad/s")
         .replace("steps = 200", "steps = 48")
         .replace("springs = 160", "engine = \"half-space\"\ncells = 32");
     let ways = [("march", LONG), ("search", &searched), ("cells", &cells)];

@@ -121,13 +121,10 @@ impl<'a> LinearHistory<'a> {
             let mut sum = constant * value;
             for ((weight, time_s), state) in branches.iter().zip(&mut states) {
                 let ratio = step_s / time_s;
+                let faded = -(-ratio).exp_m1();
                 // (1 - exp(-r))/r, which is 1 for a jump.
-                let part = if ratio > 0.0 {
-                    -(-ratio).exp_m1() / ratio
-                } else {
-                    1.0
-                };
-                *state = *state * (-ratio).exp() + change * part;
+                let part = if ratio > 0.0 { faded / ratio } else { 1.0 };
+                *state = *state * (1.0 - faded) + change * part;
                 sum += weight * *state;
             }
             after.push(sum);
