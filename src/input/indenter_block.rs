@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use super::data_file;
 use super::diagnostic::{Diagnostics, Location};
+use super::document::Located;
+use super::document::block::read_from;
 use super::document::declare::{choice, keys};
 use super::document::kind::Describe;
 use super::document::reader::TableReader;
-use super::document::{Located, block};
 use super::field_file;
 use super::field_file::Field;
 use super::keys;
@@ -18,12 +19,13 @@ use super::material_block;
 use super::material_table::DirectSum;
 use crate::indenter::{
     Asperities, Asperity, Cone, Ellipsoid, FlatPunch, HeightMap, Indenter, IndenterError, MapEdge,
-    MapQuantity, PowerLaw, Profile, Roughness, Setting, Shifted, Sphere, data_file,
+    MapQuantity, PowerLaw, PowerLawKeys, Profile, Roughness, Setting, Shifted, Sphere, data_file,
+    in_range,
 };
 use crate::material::Material;
-use crate::quantity::Dimension::{Angle, Length};
-use crate::quantity::block::Block as _;
-use crate::quantity::key::{Entries, Key, Kind, Number, number, quantity, words_of};
+use crate::quantity::Dimension::Length;
+use crate::quantity::block;
+use crate::quantity::key::{Entries, Kind, Number, quantity, words_of};
 use crate::quantity::rows::{Rows, table};
 use crate::sweep::plan::resolved;
 
@@ -37,24 +39,18 @@ const MOST_ASPERITIES: usize = 10_000;
 choice! {
     /// The shape; what it needs is listed below.
     SHAPE = "shape", Shape, BY_SHAPE:
-    /// A sphere, as the paraboloid of its radius.
-    Sphere = "sphere": &[&[RADIUS]];
-    /// A cone.
-    Cone = "cone": &[&[HALF_ANGLE]];
-    /// A flat cylindrical punch.
-    FlatPunch = "flat-punch": &[&[RADIUS]];
-    /// An elliptic paraboloid.
-    Ellipsoid = "ellipsoid": &[&[RADIUS_X, RADIUS_Y]];
-    /// gap = height (r / radius)^exponent.
-    PowerLaw = "power-law": &[&[EXPONENT, GAP_RADIUS, GAP_HEIGHT]];
+    Sphere(Sphere);
+    Cone(Cone);
+    FlatPunch(FlatPunch);
+    Ellipsoid(Ellipsoid);
+    PowerLaw(PowerLawKeys);
     /// A profile of revolution: columns `r_m`, `gap_m`, from the axis outwards.
     Profile = "profile": &[&[FILE, SHA256]];
     /// A measured surface: a matrix (CSV or `.npy`), or columns `x_m`, `y_m`, `z_m`.
     HeightMap = "height-map": &[&[FILE, SHA256, MAP_SPACING, MAP_QUANTITY, HEIGHT_UNIT, LEVEL, EDGE]];
     /// Paraboloids side by side.
     Asperities = "asperities": &[&[ASPERITY_LIST]];
-    /// A random self-affine surface.
-    Rough = "rough": &[Roughness::KEYS];
+    Rough(Roughness);
 }
 
 keys! {
@@ -64,20 +60,6 @@ keys! {
     INDENTER_MATERIAL = "material", Kind::Table(&INDENTER_MATERIAL_KEYS), optional;
     /// Name of the indenter in tables and figures.
     INDENTER_NAME = "name", Kind::Text;
-    /// Radius.
-    RADIUS = "radius", Kind::Number(LENGTH);
-    /// Angle between axis and flank; 90 deg is a plane.
-    HALF_ANGLE = "half_angle", Kind::Number(quantity(Angle).above_zero().such_as("\"70 deg\""));
-    /// Principal radius of curvature along x.
-    RADIUS_X = "radius_x", Kind::Number(LENGTH);
-    /// Principal radius of curvature along y.
-    RADIUS_Y = "radius_y", Kind::Number(LENGTH);
-    /// Exponent of the gap; 2 is a paraboloid.
-    EXPONENT = "exponent", Kind::Number(number("4.0"));
-    /// Radius at which the gap is `height`.
-    GAP_RADIUS = "radius", Kind::Number(LENGTH);
-    /// Gap at `radius`.
-    GAP_HEIGHT = "height", Kind::Number(LENGTH);
     /// Data file; its path is relative to this file, in a flag to the working folder.
     FILE = "file", Kind::Text;
     /// SHA-256 of the data file, in hexadecimal, to make sure that it has not changed.
@@ -132,15 +114,15 @@ pub(super) fn read(table: TableReader<'_>) -> Made {
     // Read by itself, with the material that it is pressed against.
     block.0.has(&INDENTER_MATERIAL);
     let made = match shape.value {
-        Shape::Sphere => block.single(&RADIUS, Sphere::new),
-        Shape::Cone => block.single(&HALF_ANGLE, Cone::new),
-        Shape::FlatPunch => block.single(&RADIUS, FlatPunch::new),
-        Shape::Ellipsoid => block.ellipsoid(&shape),
-        Shape::PowerLaw => block.power_law(&shape),
+        Shape::Sphere => block.of_keys(&shape, in_range::<Sphere>),
+        Shape::Cone => block.of_keys(&shape, Cone::checked),
+        Shape::FlatPunch => block.of_keys(&shape, in_range::<FlatPunch>),
+        Shape::Ellipsoid => block.of_keys(&shape, in_range::<Ellipsoid>),
+        Shape::PowerLaw => block.of_keys(&shape, PowerLaw::of),
         Shape::Profile => block.profile(),
         Shape::HeightMap => block.height_map(),
         Shape::Asperities => block.asperities(),
-        Shape::Rough => block.rough(&shape),
+        Shape::Rough => block.of_keys(&shape, |roughness: Roughness| roughness.map()),
     };
     let problems = block.0.problems();
     block.0.finish();
@@ -208,18 +190,22 @@ pub(super) fn material_of(mut table: TableReader<'_>) -> Option<Option<Located<M
 struct Block<'a>(TableReader<'a>);
 
 impl Block<'_> {
-    /// A shape made of one number.
-    fn single<S: Indenter + 'static>(
+    /// A shape made of the keys of a block; where one of them is refused, that is told at its place.
+    fn of_keys<B: block::Block, S: Indenter + 'static>(
         &mut self,
-        key: &Key,
-        make: fn(f64) -> Result<S, IndenterError>,
+        shape: &Located<Shape>,
+        make: fn(B) -> Result<S, IndenterError>,
     ) -> Made {
-        let size: Located<f64> = self.0.read(key)?;
-        let made = make(size.value).map_err(|error| {
-            let report = self.0.problems().at(&size, error.to_string());
-            report.help(format!("for example {} = {}", key.name, key.kind.example()));
-        });
-        Some(Arc::new(made.ok()?))
+        let made = make(read_from(&mut self.0, None)?);
+        let refused = made.as_ref().err().and_then(IndenterError::key);
+        let key = refused.and_then(|name| B::KEYS.iter().find(|key| key.name == name));
+        let place = key.and_then(|key| self.0.value_place(key.name));
+        let (Err(error), Some(key), Some(place)) = (&made, key, place) else {
+            return self.made(shape, made);
+        };
+        let report = self.0.problems().at(&place, error.to_string());
+        report.help(format!("for example {} = {}", key.name, key.kind.example()));
+        None
     }
 
     /// A shape, or its refusal reported at this place.
@@ -229,21 +215,6 @@ impl Block<'_> {
         shape: Result<S, IndenterError>,
     ) -> Made {
         Some(Arc::new(self.0.problems().accept(place, shape)?))
-    }
-
-    fn ellipsoid(&mut self, shape: &Located<Shape>) -> Made {
-        let (x_m, y_m) = (self.0.value(&RADIUS_X), self.0.value(&RADIUS_Y));
-        self.made(shape, Ellipsoid::new(x_m?, y_m?))
-    }
-
-    fn power_law(&mut self, shape: &Located<Shape>) -> Made {
-        let exponent: Option<Located<f64>> = self.0.read(&EXPONENT);
-        let (radius_m, height_m) = (self.0.value(&GAP_RADIUS), self.0.value(&GAP_HEIGHT));
-        let (exponent, radius_m, height_m) = (exponent?, radius_m?, height_m?);
-        match PowerLaw::new(exponent.value, radius_m, height_m) {
-            refused @ Err(IndenterError::Exponent { .. }) => self.made(&exponent, refused),
-            other => self.made(shape, other),
-        }
     }
 
     fn asperities(&mut self) -> Made {
@@ -262,15 +233,6 @@ impl Block<'_> {
         })?;
         let asperities = Asperities::new(all.value.clone());
         self.made(&all, asperities)
-    }
-
-    fn rough(&mut self, shape: &Located<Shape>) -> Made {
-        let hurst = self.0.places_in("hurst_exponent").pop();
-        let roughness: Roughness = block::read_from(&mut self.0, None)?;
-        match (roughness.map(), hurst) {
-            (refused @ Err(IndenterError::Hurst { .. }), Some(hurst)) => self.made(&hurst, refused),
-            (other, _) => self.made(shape, other),
-        }
     }
 
     /// What is made of the bytes under `file`, once they are known to be those of `sha256`.

@@ -1,29 +1,32 @@
 //! The ellipsoid by its principal radii of curvature, in small-slope form: g = x^2 / (2 Rx) + y^2 / (2 Ry).
 
-use super::{Axisymmetric, Domain, Indenter, IndenterError, Setting, Sphere, positive_length};
+use super::radius_under_approach_m;
+use super::{Axisymmetric, Domain, Indenter, IndenterError, LENGTH, Setting, in_range};
+use crate::block;
+use crate::quantity::block::Block as _;
 
-/// A rigid body of two principal radii of curvature, along x and y; its elastic contact is an ellipse (Hertz).
-///
-/// Two crossed cylinders of radii R1 and R2, one of them along x and the other along y, have the same gap.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Ellipsoid {
-    radius_x_m: f64,
-    radius_y_m: f64,
-    /// With equal radii the ellipsoid is a body of revolution.
-    sphere: Option<Sphere>,
+block! {
+    /// An elliptic paraboloid.
+    #[derive(Copy)]
+    pub struct Ellipsoid in "ellipsoid" sealed {
+        /// Principal radius of curvature along x.
+        radius_x_m: f64 => "radius_x", LENGTH;
+        /// Principal radius of curvature along y.
+        radius_y_m: f64 => "radius_y", LENGTH;
+    }
 }
 
 impl Ellipsoid {
-    /// An ellipsoid with these principal radii of curvature (m) at its lowest point.
+    /// An ellipsoid with these principal radii of curvature (m) at its lowest point; its elastic contact is an ellipse (Hertz).
+    ///
+    /// Two crossed cylinders of radii R1 and R2, one of them along x and the other along y, have the same gap.
     ///
     /// # Errors
     /// [`IndenterError::Length`] where one of them is not positive and finite.
     pub fn new(radius_x_m: f64, radius_y_m: f64) -> Result<Self, IndenterError> {
-        let sphere = Sphere::new(positive_length("radius_x", radius_x_m)?)?;
-        Ok(Self {
+        in_range(Self {
             radius_x_m,
-            radius_y_m: positive_length("radius_y", radius_y_m)?,
-            sphere: (radius_x_m == radius_y_m).then_some(sphere),
+            radius_y_m,
         })
     }
 
@@ -57,22 +60,20 @@ impl Ellipsoid {
 
 impl Indenter for Ellipsoid {
     fn shape(&self) -> &'static str {
-        "ellipsoid"
+        Self::NAME
     }
 
     fn parameters(&self) -> Vec<Setting> {
-        vec![
-            Setting::length("radius_x", self.radius_x_m),
-            Setting::length("radius_y", self.radius_y_m),
-        ]
+        self.settings().collect()
     }
 
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {
         x_m * x_m / (2.0 * self.radius_x_m) + y_m * y_m / (2.0 * self.radius_y_m)
     }
 
+    /// With equal radii it is a body of revolution.
     fn axisymmetric(&self) -> Option<&dyn Axisymmetric> {
-        self.sphere.as_ref().map(|sphere| sphere as _)
+        (self.radius_x_m == self.radius_y_m).then_some(self as _)
     }
 
     fn not_axisymmetric_because(&self) -> String {
@@ -90,8 +91,9 @@ impl Indenter for Ellipsoid {
     /// `Ellipsoid::elastic_semi_axes_m`.
     fn half_widths_under_approach_m(&self, approach_m: f64) -> (f64, f64) {
         use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
-        if let Some(sphere) = &self.sphere {
-            return sphere.half_widths_under_approach_m(approach_m);
+        if let Some(sphere) = self.axisymmetric() {
+            let radius_m = radius_under_approach_m(sphere, approach_m);
+            return (radius_m, radius_m);
         }
         let (rx, ry) = self.radii_m();
         let ratio = rx.max(ry) / rx.min(ry);
@@ -118,8 +120,20 @@ impl Indenter for Ellipsoid {
     }
 }
 
+/// Of equal radii, as a sphere.
+impl Axisymmetric for Ellipsoid {
+    fn transformed_gap_m(&self, x_m: f64) -> f64 {
+        x_m * x_m / self.radius_x_m
+    }
+
+    fn has_bounded_pressure(&self) -> bool {
+        true
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use super::super::Sphere;
     use super::*;
 
     #[test]

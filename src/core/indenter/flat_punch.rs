@@ -1,19 +1,22 @@
 //! The flat-ended cylindrical punch: gap 0 inside its radius, no indenter outside.
 
-use super::{Axisymmetric, Indenter, IndenterError, Setting, positive_length};
+use super::{Axisymmetric, Indenter, IndenterError, LENGTH, Setting, in_range};
+use crate::block;
+use crate::quantity::block::Block as _;
 
-/// A rigid flat punch of circular section.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FlatPunch {
-    radius_m: f64,
+block! {
+    /// A flat cylindrical punch.
+    #[derive(Copy)]
+    pub struct FlatPunch in "flat-punch" sealed {
+        /// Radius.
+        radius_m: f64 => "radius", LENGTH;
+    }
 }
 
 impl FlatPunch {
     /// A punch of this radius (m).
     pub fn new(radius_m: f64) -> Result<Self, IndenterError> {
-        Ok(Self {
-            radius_m: positive_length("radius", radius_m)?,
-        })
+        in_range(Self { radius_m })
     }
 
     /// Radius a (m).
@@ -24,11 +27,11 @@ impl FlatPunch {
 
 impl Indenter for FlatPunch {
     fn shape(&self) -> &'static str {
-        "flat-punch"
+        Self::NAME
     }
 
     fn parameters(&self) -> Vec<Setting> {
-        vec![Setting::length("radius", self.radius_m)]
+        self.settings().collect()
     }
 
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {

@@ -31,14 +31,20 @@ pub use cone::Cone;
 pub use ellipsoid::Ellipsoid;
 pub use flat_punch::FlatPunch;
 pub use height_map::{HeightMap, MapEdge, MapQuantity};
-pub use power_law::PowerLaw;
+pub use power_law::{PowerLaw, PowerLawKeys};
 pub use profile::Profile;
 pub use reach::radius_under_approach_m;
 pub use rough::Roughness;
 pub use shifted::Shifted;
 pub use sphere::Sphere;
 
+use crate::quantity::Dimension;
+use crate::quantity::block::Block;
+use crate::quantity::key::{Kind, quantity};
 pub use crate::quantity::setting::{Setting, Value};
+
+/// What a length must be.
+const LENGTH: Kind = Kind::Number(quantity(Dimension::Length).above_zero());
 
 /// The settings of a data file: its absolute path, so that it can be read again from anywhere, and the SHA-256 of its bytes.
 pub fn data_file(file: &str, sha256: &str) -> Vec<Setting> {
@@ -149,6 +155,18 @@ pub enum IndenterError {
         roll_off_m: f64,
         side_m: f64,
     },
+}
+
+impl IndenterError {
+    /// The key of the number that it is about, where that is one which a file may have as it is.
+    pub fn key(&self) -> Option<&'static str> {
+        match self {
+            Self::HalfAngle { .. } => Some("half_angle"),
+            Self::Exponent { .. } => Some("exponent"),
+            Self::Hurst { .. } => Some("hurst_exponent"),
+            _ => None,
+        }
+    }
 }
 
 /// A rigid indenter, pressed along its axis into the half-space.
@@ -306,6 +324,23 @@ pub trait Axisymmetric {
             false => vec![0.0],
         }
     }
+}
+
+/// The block of a shape, where its lengths are in the ranges of their keys.
+///
+/// # Errors
+/// [`IndenterError::Length`] with the first that is not.
+pub fn in_range<B: Block>(block: B) -> Result<B, IndenterError> {
+    for (key, value) in B::KEYS.iter().zip(block.values()) {
+        let number = value.as_ref().and_then(Value::number);
+        if let (Some(value), Some(value_m)) = (value, number)
+            && !key.kind.has(&value)
+        {
+            let what = key.name;
+            return Err(IndenterError::Length { what, value_m });
+        }
+    }
+    Ok(block)
 }
 
 /// A length that must be positive and finite.

@@ -2,18 +2,32 @@
 //!
 //! Its contact is that of L. A. Galin (1946) and I. N. Sneddon, Int. J. Engng Sci. 3 (1965) 47.
 
-use super::{Axisymmetric, Indenter, IndenterError, Setting, positive_length};
+use super::{Axisymmetric, Indenter, IndenterError, LENGTH, Setting, in_range};
+use crate::block;
+use crate::quantity::block::Block as _;
+use crate::quantity::key::{Kind, number};
 
 /// Largest exponent. Beyond it the shape is a flat punch for every purpose, and powers leave the range of numbers.
 pub(super) const MAX_EXPONENT: f64 = 100.0;
+
+block! {
+    /// gap = height (r / radius)^exponent.
+    #[derive(Copy)]
+    pub struct PowerLawKeys in "power-law" {
+        /// Exponent of the gap; 2 is a paraboloid.
+        exponent: f64 => "exponent", Kind::Number(number("4.0"));
+        /// Radius at which the gap is `height`.
+        radius_m: f64 => "radius", LENGTH;
+        /// Gap at `radius`.
+        height_m: f64 => "height", LENGTH;
+    }
+}
 
 /// A rigid power-law indenter. Exponent 2 is the sphere with R = radius^2 / (2 height), exponent 1 the cone with the slope
 /// height / radius.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PowerLaw {
-    exponent: f64,
-    radius_m: f64,
-    height_m: f64,
+    keys: PowerLawKeys,
     /// G(x) / g(x), the same at every x.
     transformed_ratio: f64,
 }
@@ -24,34 +38,42 @@ impl PowerLaw {
     /// # Errors
     /// [`IndenterError::Exponent`] for an exponent below 1 or above 100, [`IndenterError::Length`] for the lengths.
     pub fn new(exponent: f64, radius_m: f64, height_m: f64) -> Result<Self, IndenterError> {
+        Self::of(PowerLawKeys {
+            exponent,
+            radius_m,
+            height_m,
+        })
+    }
+
+    /// The same of its keys.
+    ///
+    /// # Errors
+    /// As [`PowerLaw::new`].
+    pub fn of(keys: PowerLawKeys) -> Result<Self, IndenterError> {
+        let exponent = keys.exponent;
         if !(1.0..=MAX_EXPONENT).contains(&exponent) {
             return Err(IndenterError::Exponent { exponent });
         }
         Ok(Self {
-            exponent,
-            radius_m: positive_length("radius", radius_m)?,
-            height_m: positive_length("height", height_m)?,
+            keys: in_range(keys)?,
             transformed_ratio: std::f64::consts::PI.sqrt() * gamma(0.5 * exponent + 1.0)
                 / gamma(0.5 * exponent + 0.5),
         })
     }
 
     fn profile_m(&self, r_m: f64) -> f64 {
-        self.height_m * (r_m / self.radius_m).powf(self.exponent)
+        let keys = &self.keys;
+        keys.height_m * (r_m / keys.radius_m).powf(keys.exponent)
     }
 }
 
 impl Indenter for PowerLaw {
     fn shape(&self) -> &'static str {
-        "power-law"
+        PowerLawKeys::NAME
     }
 
     fn parameters(&self) -> Vec<Setting> {
-        vec![
-            Setting::new("exponent", self.exponent),
-            Setting::length("radius", self.radius_m),
-            Setting::length("height", self.height_m),
-        ]
+        self.keys.settings().collect()
     }
 
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {
@@ -64,10 +86,14 @@ impl Indenter for PowerLaw {
 
     /// W = 2 n G(a) a / ((n + 1) C).
     fn elastic_half_width_m(&self, load_n: f64, compliance_per_pa: f64) -> f64 {
-        let n = self.exponent;
-        let full = self.transformed_ratio * self.height_m * self.radius_m;
+        let PowerLawKeys {
+            exponent: n,
+            radius_m,
+            height_m,
+        } = self.keys;
+        let full = self.transformed_ratio * height_m * radius_m;
         let share = load_n * compliance_per_pa * (n + 1.0) / (2.0 * n * full);
-        self.radius_m * share.powf((n + 1.0).recip())
+        radius_m * share.powf((n + 1.0).recip())
     }
 }
 
@@ -79,7 +105,7 @@ impl Axisymmetric for PowerLaw {
 
     /// The pressure on the axis is proportional to the integral of x^(n-2), which diverges for the cone alone.
     fn has_bounded_pressure(&self) -> bool {
-        self.exponent > 1.0
+        self.keys.exponent > 1.0
     }
 }
 

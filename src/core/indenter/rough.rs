@@ -21,15 +21,13 @@ use std::ops::RangeInclusive;
 
 use num_complex::Complex;
 
-use super::{HeightMap, IndenterError, MapEdge, MapQuantity, positive_length};
+use super::{HeightMap, IndenterError, LENGTH, MapEdge, MapQuantity, in_range};
 use crate::block;
-use crate::quantity::Dimension;
 use crate::quantity::block::Block as _;
-use crate::quantity::key::{Kind, number, quantity};
+use crate::quantity::key::{Kind, number};
 
 /// Cells per side.
 pub(super) const CELLS: RangeInclusive<usize> = 8..=4096;
-const LENGTH: Kind = Kind::Number(quantity(Dimension::Length).above_zero());
 
 block! {
     /// A random self-affine surface.
@@ -85,20 +83,19 @@ fn check(roughness: &Roughness) -> Result<(), IndenterError> {
     if !CELLS.contains(&cells) {
         return Err(IndenterError::RoughCells { cells });
     }
-    let spacing_m = positive_length("spacing", roughness.spacing_m)?;
-    positive_length("rms_height", roughness.rms_height_m)?;
-    if let Some(radius_m) = roughness.sphere_radius_m {
-        if roughness.edge == MapEdge::Periodic {
-            return Err(IndenterError::PeriodicSphere);
-        }
-        positive_length("sphere_radius", radius_m)?;
+    let Roughness {
+        spacing_m,
+        cut_off_wavelength_m: cut_off_m,
+        ..
+    } = in_range(*roughness)?;
+    if roughness.sphere_radius_m.is_some() && roughness.edge == MapEdge::Periodic {
+        return Err(IndenterError::PeriodicSphere);
     }
     let hurst = roughness.hurst_exponent;
     if !(0.0..=1.0).contains(&hurst) {
         return Err(IndenterError::Hurst { hurst });
     }
     let side_m = cells as f64 * spacing_m;
-    let cut_off_m = positive_length("cut_off_wavelength", roughness.cut_off_wavelength_m)?;
     let roll_off_m = roughness.roll_off_wavelength_m.unwrap_or(side_m);
     // Lengths written in decimal, such as two spacings, come a rounding too small.
     const ROUNDING: f64 = 1.0 + 1e-9;

@@ -1,19 +1,22 @@
 //! The sphere, in the small-slope (paraboloid) form on which Hertz contact rests: g = r^2 / (2 R).
 
-use super::{Axisymmetric, Indenter, IndenterError, Setting, positive_length};
+use super::{Axisymmetric, Indenter, IndenterError, LENGTH, Setting, in_range};
+use crate::block;
+use crate::quantity::block::Block as _;
 
-/// A rigid sphere of radius R, as a paraboloid.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sphere {
-    radius_m: f64,
+block! {
+    /// A sphere, as the paraboloid of its radius.
+    #[derive(Copy)]
+    pub struct Sphere in "sphere" sealed {
+        /// Radius.
+        radius_m: f64 => "radius", LENGTH;
+    }
 }
 
 impl Sphere {
     /// A sphere of this radius (m).
     pub fn new(radius_m: f64) -> Result<Self, IndenterError> {
-        Ok(Self {
-            radius_m: positive_length("radius", radius_m)?,
-        })
+        in_range(Self { radius_m })
     }
 
     /// Radius R (m).
@@ -24,11 +27,11 @@ impl Sphere {
 
 impl Indenter for Sphere {
     fn shape(&self) -> &'static str {
-        "sphere"
+        Self::NAME
     }
 
     fn parameters(&self) -> Vec<Setting> {
-        vec![Setting::length("radius", self.radius_m)]
+        self.settings().collect()
     }
 
     fn tip_radius_m(&self) -> Option<f64> {

@@ -296,7 +296,7 @@ pub fn field<T: Field>(
 #[macro_export]
 macro_rules! words {
     ($(#[$meta:meta])* $visibility:vis enum $Name:ident {
-        $($(#[$variant_meta:meta])* $Variant:ident = $word:literal),+ $(,)?
+        $($(#[$variant_meta:meta])* $Variant:ident = $word:expr),+ $(,)?
     }) => {
         $(#[$meta])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -326,7 +326,8 @@ macro_rules! words {
 
 /// A struct that is a block of an input file: a line for each key has the field, its type, what counts without it, the key and what may
 /// stand under it. A key with `chosen` behind it is described as one whose value is chosen where it is left out. `conflict` names the
-/// function that judges the values together.
+/// function that judges the values together. The fields are public, but for those of a struct that is `sealed` because a constructor
+/// judges its values.
 #[macro_export]
 macro_rules! block {
     (@presence $T:ty, $default:expr, $kind:expr) => {
@@ -342,6 +343,7 @@ macro_rules! block {
     (@conflict $self:ident) => { None };
     (@conflict $self:ident $function:ident) => { $self.$function() };
     (
+        @fields($field_visibility:vis,)
         $(#[doc = $about:literal])+
         $(#[derive($($derive:ident),+)])?
         $visibility:vis struct $Name:ident in $table:literal $(unless $function:ident)? {
@@ -350,7 +352,7 @@ macro_rules! block {
     ) => {
         $(#[doc = $about])+
         #[derive(Debug, Clone, PartialEq $($(, $derive)+)?)]
-        $visibility struct $Name { $($(#[doc = $means])+ pub $field: $T),+ }
+        $visibility struct $Name { $($(#[doc = $means])+ $field_visibility $field: $T),+ }
 
         impl $crate::quantity::block::Block for $Name {
             const NAME: &'static str = $table;
@@ -380,6 +382,12 @@ macro_rules! block {
                 $crate::block!(@conflict self $($function)?)
             }
         }
+    };
+    ($(#[$($meta:tt)+])+ $visibility:vis struct $Name:ident in $table:literal sealed $keys:tt) => {
+        $crate::block! { @fields(,) $(#[$($meta)+])+ $visibility struct $Name in $table $keys }
+    };
+    ($(#[$($meta:tt)+])+ $visibility:vis struct $($block:tt)+) => {
+        $crate::block! { @fields(pub,) $(#[$($meta)+])+ $visibility struct $($block)+ }
     };
 }
 

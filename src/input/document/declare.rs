@@ -22,25 +22,34 @@ macro_rules! keys {
 }
 pub(in crate::input) use keys;
 
-/// A key whose word decides which others its table has: the enum of its words, its key, and the keys that each word brings.
+/// A key whose word decides which others its table has: the enum of its words, its key, and the keys that each word brings; those of a
+/// block, where one is named.
 macro_rules! choice {
     ($(#[doc = $means:literal])+ $row:ident = $key:literal, $name:ident, $others:ident:
-        $( $(#[doc = $about:literal])+ $variant:ident = $word:literal: $keys:expr $(, $ways:expr)?; )+) => {
+        $( $(#[doc = $about:literal])* $variant:ident $(($block:ident))? $(= $word:literal: $keys:expr $(, $ways:expr)?)?; )+) => {
         contact_dma_core::words! {
             $(#[doc = $means])+
-            pub(crate) enum $name { $( $(#[doc = $about])+ $variant = $word ),+ }
+            pub(crate) enum $name {
+                $( $(#[doc = $about])* $variant = $crate::input::document::declare::choice!(@word $($block)? $($word)?) ),+
+            }
         }
         $crate::input::document::declare::keys! {
             $(#[doc = $means])+
             $row = $key, $crate::quantity::key::Kind::Word($name::WORDS);
         }
         const $others: $crate::quantity::rows::Others = $crate::quantity::rows::Others::ByWord(&$row, &[$(
-            ($word, &$crate::quantity::rows::Rows {
-                means: concat!($($about),+),
-                keys: $keys,
-                others: $crate::input::document::declare::choice!(@ways $($ways)?),
-            })
+            ($name::$variant.name(), $crate::input::document::declare::choice!(@rows $($block)? [$($about),*] $($keys $(, $ways)?)?))
         ),+]);
+    };
+    (@word $word:literal) => { $word };
+    (@word $block:ident) => { <$block as $crate::quantity::block::Block>::NAME };
+    (@rows $block:ident []) => { &<$block as $crate::quantity::block::Block>::ROWS };
+    (@rows [$($about:literal),+] $keys:expr $(, $ways:expr)?) => {
+        &$crate::quantity::rows::Rows {
+            means: concat!($($about),+),
+            keys: $keys,
+            others: $crate::input::document::declare::choice!(@ways $($ways)?),
+        }
     };
     (@ways) => { $crate::quantity::rows::Others::None };
     (@ways $ways:expr) => { $crate::quantity::rows::Others::OneList($ways) };
