@@ -377,9 +377,17 @@ impl EngineBuilder {
     }
 
     fn settings(&self) -> SolverSettings {
+        // By name, so that a key of `[solver]` that nothing uses does not compile.
+        let SolverPlan {
+            tolerance,
+            engine: _,
+            cells: _,
+            springs: _,
+            time_rule: _,
+        } = self.solver;
         SolverSettings {
-            tolerance: (self.solver.tolerance).unwrap_or(instant_tolerance::OF_A_HISTORY),
-            ..SolverSettings::default()
+            tolerance: tolerance.unwrap_or(instant_tolerance::OF_A_HISTORY),
+            max_iterations: SolverSettings::default().max_iterations,
         }
     }
 
