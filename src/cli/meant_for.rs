@@ -5,10 +5,10 @@ use std::path::Path;
 
 use super::documents::open_document;
 use super::failure::Failure;
+use crate::drive::segments::SEGMENTS;
 use crate::input::diagnostic::Problems;
 use crate::input::document::Document;
 use crate::input::keys;
-use crate::input::segments_block::SEGMENTS;
 
 /// A kind of file by the command that takes it, and how it is known.
 #[derive(PartialEq)]

@@ -16,6 +16,7 @@
 //! ```
 
 pub mod block;
+mod declare;
 mod error;
 mod frequency;
 pub mod key;

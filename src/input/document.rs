@@ -10,7 +10,6 @@
 //!   call it where a wrong value leaves open which keys belong to the table.
 
 pub(crate) mod block;
-pub(crate) mod declare;
 pub(crate) mod kind;
 pub(crate) mod reader;
 pub(crate) mod schema;

@@ -4,8 +4,8 @@ use super::diagnostic::{Location, Problems};
 use super::document::Located;
 use super::document::reader::TableReader;
 use super::keys::DRIVE;
-use super::keys::drive::{AMPLITUDE, HOLD, MEAN, PHASE, PRESCRIBES, Prescribed};
-use crate::drive::{Control, DriveError, HarmonicDrive};
+use crate::drive::harmonic::{AMPLITUDE, HOLD, MEAN};
+use crate::drive::{Control, DriveError, HarmonicDrive, PHASE, PRESCRIBES, Prescribed};
 
 /// What the block prescribes, where it says so; what is wrong with it is told when it is read.
 pub(super) fn prescribed(root: &mut TableReader<'_>) -> Prescribed {

@@ -10,16 +10,15 @@ use super::document::{Document, Located, block};
 use super::given::Given;
 use super::harmonic_block::Pressed;
 use super::keys;
-use super::keys::identify::{
-    APPROACH_ZERO, DATA, IDENTIFY, IDENTIFY_BRANCHES, KNOWN_MATERIAL, MEASURED_DRIVE, MODEL_CYCLE,
-};
+use super::keys::identify::{IDENTIFY, KNOWN_MATERIAL, MEASURED_DRIVE, MODEL_CYCLE};
 use super::keys::material::BULK_MODULUS;
-use super::segments_block::SEGMENTS;
 use super::{
     bodies_block, harmonic_block, material_block, measured_history, measured_table, segments_block,
     solver_block,
 };
+use crate::drive::segments::SEGMENTS;
 use crate::identify::data::{Measurements, TableColumns};
+use crate::identify::resolved::{APPROACH_ZERO, DATA, IDENTIFY_BRANCHES};
 use crate::identify::{ApproachZero, Driven, IdentifyPlan, Sought};
 use crate::indenter::Indenter;
 use crate::material::{Compressibility, Relaxation};

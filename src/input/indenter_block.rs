@@ -7,34 +7,31 @@ use super::data_file;
 use super::diagnostic::{Diagnostics, Location};
 use super::document::Located;
 use super::document::block::read_from;
-use super::document::declare::{choice, keys};
 use super::document::kind::Describe;
 use super::document::reader::TableReader;
 use super::field_file;
 use super::field_file::Field;
 use super::keys;
 use super::keys::material::INDENTER_MATERIAL as INDENTER_MATERIAL_KEYS;
-use super::map_values::{HEIGHT_UNITS, MapLevel, MapReading};
+use super::map_values::MapReading;
 use super::material_block;
 use super::material_table::DirectSum;
+use crate::indenter::asperities::{ASPERITY_HEIGHT, ASPERITY_LIST, ASPERITY_RADIUS, CENTER};
+use crate::indenter::height_map::{
+    EDGE, HEIGHT_UNIT, HEIGHT_UNITS, LEVEL, MAP_QUANTITY, MAP_SPACING,
+};
+use crate::indenter::shifted::OFFSET;
 use crate::indenter::{
-    Asperities, Asperity, Cone, Ellipsoid, FlatPunch, HeightMap, Indenter, IndenterError, MapEdge,
-    MapQuantity, PowerLaw, PowerLawKeys, Profile, Roughness, Setting, Shifted, Sphere, data_file,
+    Asperities, Asperity, Cone, Ellipsoid, FILE, FlatPunch, HeightMap, Indenter, IndenterError,
+    PowerLaw, PowerLawKeys, Profile, Roughness, SHA256, Setting, Shifted, Sphere, data_file,
     in_range,
 };
 use crate::material::Material;
-use crate::quantity::Dimension::Length;
 use crate::quantity::block;
-use crate::quantity::key::{Entries, Kind, Number, quantity, words_of};
-use crate::quantity::rows::{Rows, table};
+use crate::quantity::key::Kind;
+use crate::quantity::rows::Rows;
 use crate::sweep::plan::resolved;
-
-const LENGTH: Number = quantity(Length).above_zero();
-const POSITION: &str = "write one for x and one for y: [\"1 um\", \"0 um\"]";
-const UNIT_WORDS: [&str; HEIGHT_UNITS.len()] = words_of(&HEIGHT_UNITS);
-
-/// More asperities than this are a height map.
-const MOST_ASPERITIES: usize = 10_000;
+use contact_dma_core::{choice, keys};
 
 choice! {
     /// The shape; what it needs is listed below.
@@ -54,41 +51,11 @@ choice! {
 }
 
 keys! {
-    /// Moves the indenter along x and y.
-    OFFSET = "offset", Kind::Numbers(quantity(Length), Entries::two(POSITION)), optional;
     /// Material of the indenter; left out: rigid.
     INDENTER_MATERIAL = "material", Kind::Table(&INDENTER_MATERIAL_KEYS), optional;
     /// Name of the indenter in tables and figures.
     INDENTER_NAME = "name", Kind::Text;
-    /// Data file; its path is relative to this file, in a flag to the working folder.
-    FILE = "file", Kind::Text;
-    /// SHA-256 of the data file, in hexadecimal, to make sure that it has not changed.
-    SHA256 = "sha256", Kind::Text, optional;
-    /// Distance between points of a matrix, or one for x and one for y; not for files with columns `x_m`, `y_m`, `z_m`.
-    MAP_SPACING = "spacing", Kind::Numbers(LENGTH, Entries::of(1..=2, POSITION)), optional;
-    /// Whether values are heights, positive towards the half-space, or gaps.
-    MAP_QUANTITY = "quantity", Kind::Word(MapQuantity::WORDS), or MapQuantity::Height;
-    /// Unit of the values of a matrix.
-    HEIGHT_UNIT = "height_unit", Kind::Word(&UNIT_WORDS), or UNIT_WORDS[0].to_owned();
-    /// What is subtracted from the values first: nothing, their mean, or the best-fit plane.
-    LEVEL = "level", Kind::Word(MapLevel::WORDS), or MapLevel::None;
-    /// What lies outside the map: unknown, so the contact must stay within; nothing (`rim`); or periodic repetitions of the map
-    /// (`periodic`), under a prescribed load.
-    EDGE = "edge", Kind::Word(MapEdge::WORDS), or MapEdge::Unknown;
-    /// The asperities.
-    ASPERITY_LIST = "asperities", Kind::Tables(&ASPERITY, MOST_ASPERITIES, ", or a height map");
-    /// Position of the summit along x and y.
-    CENTER = "center", Kind::Numbers(quantity(Length), Entries::two(POSITION));
-    /// Radius of curvature at the summit.
-    ASPERITY_RADIUS = "radius", Kind::Number(LENGTH);
-    /// Height of the summit towards the half-space.
-    ASPERITY_HEIGHT = "height", Kind::Number(quantity(Length)), or 0.0;
 }
-
-static ASPERITY: Rows = table(
-    " One asperity.",
-    &[&[CENTER, ASPERITY_RADIUS, ASPERITY_HEIGHT]],
-);
 
 pub(super) static INDENTER: Rows = Rows {
     means: " The indenter. Shapes other than convex bodies of revolution need the half-space engine.",

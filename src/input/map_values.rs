@@ -1,77 +1,15 @@
 //! What the values of a height map mean: their unit, and what is subtracted from them; and whether the map is a surface that contact can
 //! be computed for.
 
+use crate::indenter::height_map::{HEIGHT_UNIT, HEIGHT_UNITS, LEVEL, MAP_SPACING, MapLevel};
 use crate::indenter::{HeightMap, IndenterError, MapEdge, MapQuantity, Setting};
 use crate::numerics::order::upper_median;
-use contact_dma_core::words;
+use crate::quantity::key::Key;
 
 /// The median slope of a map above which it is no surface in contact. Of rough surfaces, paraboloids, punches with walls and maps
 /// with 5 % of bad points the median was at most 0.6 (a cone 30 degrees from flat); the same heights in micrometres read as metres
 /// gave 2e4 and more. The root mean square is above 1 for walls and bad points, too.
 const STEEPEST_MAP: f64 = 1.0;
-
-/// Units of heights by their names, the one that counts where none is given first: how many of it make a metre, to which values
-/// are brought by a single rounding.
-pub(crate) const HEIGHT_UNITS: [(&str, f64); 6] = [
-    ("m", 1.0),
-    ("mm", 1e3),
-    ("um", 1e6),
-    ("µm", 1e6),
-    ("nm", 1e9),
-    ("pm", 1e12),
-];
-
-words! {
-    /// What is subtracted from the values of a map before they count.
-    pub(crate) enum MapLevel {
-        None = "none",
-        /// Their mean, which leaves the gap as it is: that counts from the point that touches first.
-        Mean = "mean",
-        /// The plane through them by least squares: the tilt of the instrument.
-        Plane = "plane",
-    }
-}
-
-impl MapLevel {
-    /// Subtracts it from values given row by row, `cells_x` in a row.
-    pub(super) fn subtract(self, cells_x: usize, values: &mut [f64]) {
-        let count = values.len() as f64;
-        if self == Self::None || values.is_empty() {
-            return;
-        }
-        let mean = values.iter().sum::<f64>() / count;
-        values.iter_mut().for_each(|z| *z -= mean);
-        if self == Self::Mean {
-            return;
-        }
-        // About the middle of a grid the two directions do not mix, and either slope is a quotient of two sums.
-        let cells_y = values.len() / cells_x;
-        let middle = |cells: usize| 0.5 * (cells as f64 - 1.0);
-        let place = |at: usize| {
-            let (column, row) = (at % cells_x, at / cells_x);
-            [
-                column as f64 - middle(cells_x),
-                row as f64 - middle(cells_y),
-            ]
-        };
-        let (mut moment, mut inertia) = ([0.0; 2], [0.0; 2]);
-        for (at, z) in values.iter().enumerate() {
-            let place = place(at);
-            for axis in 0..2 {
-                moment[axis] += place[axis] * z;
-                inertia[axis] += place[axis] * place[axis];
-            }
-        }
-        let slope = [0, 1].map(|axis| match inertia[axis] > 0.0 {
-            true => moment[axis] / inertia[axis],
-            false => 0.0,
-        });
-        for (at, z) in values.iter_mut().enumerate() {
-            let [x, y] = place(at);
-            *z -= slope[0] * x + slope[1] * y;
-        }
-    }
-}
 
 /// How the values of a map were read.
 pub(super) struct MapReading {
@@ -94,15 +32,18 @@ impl MapReading {
 
     /// A setting of the map as the file was read, without what the file gives itself.
     pub(super) fn parameter(&self, own: Setting) -> Option<Setting> {
-        match &*own.key {
-            "spacing" | "height_unit" if self.gives_places => None,
-            "height_unit" => {
-                let mut units = HEIGHT_UNITS.iter();
-                let unit = units.find(|(_, per_m)| *per_m == self.unit_per_m)?;
-                Some(Setting::new(own.key, unit.0))
-            }
-            "level" => Some(Setting::new(own.key, self.level.name())),
-            _ => Some(own),
+        let is = |key: &Key| own.key == key.name;
+        if self.gives_places && (is(&MAP_SPACING) || is(&HEIGHT_UNIT)) {
+            return None;
+        }
+        if is(&HEIGHT_UNIT) {
+            let mut units = HEIGHT_UNITS.iter();
+            let unit = units.find(|(_, per_m)| *per_m == self.unit_per_m)?;
+            return HEIGHT_UNIT.setting(unit.0.to_owned());
+        }
+        match is(&LEVEL) {
+            true => LEVEL.setting(self.level),
+            false => Some(own),
         }
     }
 

@@ -3,11 +3,11 @@
 use super::data_file;
 use super::document::Located;
 use super::document::reader::TableReader;
-use super::keys::material::{
-    EVALUATION, Evaluation, FILE, FLOW, QUANTITY, TABLE_MODULUS, TIMES, VALUES,
-};
 use super::table_file;
 use crate::material::fit::{self, Fit, FitError};
+use crate::material::tabulated::keys::{
+    EVALUATION, Evaluation, FILE, FLOW, QUANTITY, TABLE_MODULUS, TIMES, VALUES,
+};
 use crate::material::tabulated::{TableColumn, Tabulated};
 use crate::material::{MaterialFunction, ModulusKind};
 use crate::quantity::Dimension;

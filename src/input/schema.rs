@@ -265,10 +265,10 @@ fn value_name(value: &Json) -> (String, String) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input::document::declare::keys;
     use crate::quantity::Dimension::Length;
     use crate::quantity::key::quantity;
     use crate::quantity::rows::{List, Others, Rows, table};
+    use contact_dma_core::keys;
 
     keys! {
         /// Which of the shapes it is; what every one of them needs is listed below, under its name.

@@ -1,79 +1,19 @@
-//! The `[drive]` block of a scenario file: a history of segments; what each kind of them is made of, and how it is read.
+//! The `[drive]` block of a scenario file: a history of segments, and how each kind of them is read.
 
 use std::f64::consts::TAU;
 
 use super::data_file;
 use super::diagnostic::{Location, Problems};
 use super::document::Located;
-use super::document::declare::{choice, keys};
 use super::document::reader::TableReader;
 use super::drive_table;
 use super::harmonic_block::scaled;
-use super::keys::drive::{PHASE, PRESCRIBED, PRESCRIBES};
-use crate::drive::{Control, HistoryError, Segment, SegmentProblem, SegmentedDrive};
-use crate::quantity::Dimension::{AngularFrequency, Frequency, Time};
-use crate::quantity::key::{Entries, Kind, number, quantity};
-use crate::quantity::rows::{Rows, table};
-
-/// More segments than this belong into a table.
-const MOST_SEGMENTS: usize = 10_000;
-
-keys! {
-    /// The segments, one after another; jumps between them are resolved exactly.
-    SEGMENTS = "segments", Kind::Tables(&SEGMENT, MOST_SEGMENTS, ", or a table: { kind = \"table\", file = \"drive.csv\" }");
-}
-
-pub(super) static HISTORY: Rows = table(
-    " A history of load or approach, starting at first touch.",
-    &[&[PRESCRIBES, SEGMENTS]],
-);
-
-choice! {
-    /// The kind of the segment; what it needs is listed below.
-    KIND = "kind", SegmentKind, BY_KIND:
-    /// A jump to a constant value.
-    Step = "step": &[&[TARGET, DURATION]];
-    /// A straight line from the end of the previous segment.
-    Ramp = "ramp": &[&[TARGET, DURATION]];
-    /// A polynomial of time.
-    Polynomial = "polynomial": &[&[COEFFICIENTS, DURATION]];
-    /// mean + amplitude sin(omega t + phase): exactly one of `angular_frequency` and `frequency`.
-    Sine = "sine": &[&[SINE_MEAN, SINE_AMPLITUDE, PHASE, CYCLES]],
-        &[&[&[SINE_ANGULAR_FREQUENCY]], &[&[SINE_FREQUENCY]]];
-    /// Straight lines between points: a `file`, or `times` and `values`.
-    Table = "table": &[], &[&[&[FILE]], &[&[TIMES, VALUES]]];
-}
-
-static SEGMENT: Rows = Rows {
-    means: " A part of the history.",
-    keys: &[&[KIND]],
-    others: BY_KIND,
+use crate::drive::segment::{
+    COEFFICIENTS, CYCLES, DURATION, FILE, KIND, SINE_AMPLITUDE, SINE_ANGULAR_FREQUENCY,
+    SINE_FREQUENCY, SINE_MEAN, SegmentKind, TARGET, TIMES, VALUES,
 };
-
-keys! {
-    /// The value held, or reached at the end.
-    TARGET = "to", Kind::Number(PRESCRIBED);
-    /// Duration of the segment.
-    DURATION = "duration", Kind::Number(quantity(Time).above_zero());
-    /// Coefficients of 1, t, t^2, ... in SI units, with t from the start of the segment.
-    COEFFICIENTS = "coefficients", Kind::Numbers(number("2.0"), Entries::ANY);
-    /// Mean.
-    SINE_MEAN = "mean", Kind::Number(PRESCRIBED);
-    /// Amplitude.
-    SINE_AMPLITUDE = "amplitude", Kind::Number(PRESCRIBED.above_zero());
-    /// Number of cycles, not necessarily whole.
-    CYCLES = "cycles", Kind::Number(number("4.0").above_zero());
-    /// Angular frequency; Hz is accepted too.
-    SINE_ANGULAR_FREQUENCY = "angular_frequency", Kind::Number(quantity(AngularFrequency).above_zero());
-    /// Frequency; rad/s is accepted too.
-    SINE_FREQUENCY = "frequency", Kind::Number(quantity(Frequency).above_zero());
-    /// CSV file with the columns `time_s` and `load_n` or `approach_m`.
-    FILE = "file", Kind::Text;
-    /// Times, in place of a file; the first is 0 s, two equal ones are a jump.
-    TIMES = "times", Kind::Numbers(quantity(Time), Entries::ANY);
-    /// Their values.
-    VALUES = "values", Kind::Numbers(PRESCRIBED, Entries::ANY);
-}
+use crate::drive::segments::SEGMENTS;
+use crate::drive::{Control, HistoryError, PHASE, Segment, SegmentProblem, SegmentedDrive};
 
 /// Reads the block; `None` where a problem was reported. `pull_off_n` is the attraction (N) of an indenter under such a control, `None`
 /// where a problem was reported; `area_m2` that of a period, where the surface repeats itself.

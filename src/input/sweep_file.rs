@@ -9,14 +9,15 @@ use super::document::{Document, block};
 use super::figures_block::{self, Figures};
 use super::given::Given;
 use super::keys::drive::{
-    ANGULAR_FREQUENCY, DRIVE_AXIS, FREQUENCY, INDENTER_AXIS, LAYER_AXIS, MATERIAL_AXIS, PAIRS,
-    REFINE,
+    ANGULAR_FREQUENCY, DRIVE_AXIS, FREQUENCY, INDENTER_AXIS, LAYER_AXIS, MATERIAL_AXIS,
 };
 use super::{harmonic_block, keys, solver_block};
 use crate::engine::SolverPlan;
 use crate::figures::elastic::ElasticScale;
 use crate::quantity::{Dimension, FrequencyUnit};
+use crate::sweep::plan::REFINE;
 use crate::sweep::plan::axes::MOST as MOST_AXES;
+use crate::sweep::plan::axes::PAIRS;
 use crate::sweep::plan::figures::FigurePlan;
 use crate::sweep::plan::{CyclePlan, SweepPlan};
 use conditions::Blocks;

@@ -1,6 +1,29 @@
 //! The oscillation of a sweep, under either control: a mean, and a sine about it.
 
-use super::{Control, DriveError};
+use super::{Control, DriveError, PHASE, PRESCRIBED, PRESCRIBES};
+use crate::keys;
+use crate::quantity::Dimension;
+use crate::quantity::key::{Key, Kind, quantity};
+use crate::quantity::rows::{Rows, table};
+use crate::quantity::setting::Table;
+
+keys! {
+    /// Mean; the sum of mean and amplitude must be above zero.
+    MEAN = "mean", Kind::Number(PRESCRIBED);
+    /// Amplitude; a load is held at zero where the sine would be negative.
+    AMPLITUDE = "amplitude", Kind::Number(PRESCRIBED.above_zero());
+    /// Hold at the mean before the oscillation.
+    HOLD = "hold", Kind::Number(quantity(Dimension::Time).not_negative()), or 0.0;
+}
+
+/// The keys of a file, but for what is prescribed.
+pub const KEYS: &[Key] = &[MEAN, AMPLITUDE, PHASE, HOLD];
+
+/// The `[drive]` block of a sweep file.
+pub static HARMONIC: Rows = table(
+    " mean + amplitude sin(omega t + phase), after a hold at the mean.",
+    &[&[PRESCRIBES], KEYS],
+);
 
 /// A load or an approach held at its mean from first touch, then mean + amplitude sin(omega t + phase): equation (29) of S. Spinu,
 /// Advances in Tribology 2018, 9432894. The angular frequency belongs to the sweep, not to the drive.
@@ -20,6 +43,17 @@ pub struct HarmonicDrive {
 }
 
 impl HarmonicDrive {
+    /// The block of a file that gives the same drive again.
+    pub fn table(&self) -> Table {
+        let dimension = self.control.dimension();
+        Table::new("drive")
+            .and(PRESCRIBES.setting(self.control))
+            .and(MEAN.of(dimension).setting(self.mean))
+            .and(AMPLITUDE.of(dimension).setting(self.amplitude))
+            .and(PHASE.setting(self.phase_rad))
+            .and(HOLD.setting(self.hold_s))
+    }
+
     /// Mean and amplitude in newtons or metres, phase in radians, hold (s) at the mean before the oscillation.
     ///
     /// # Errors

@@ -19,14 +19,15 @@
 //! # Ok::<(), DriveError>(())
 //! ```
 
-mod harmonic;
+pub mod harmonic;
 mod piece;
 mod schedule;
-mod segment;
-mod segments;
+pub mod segment;
+pub mod segments;
 
+use crate::quantity::key::{Kind, Number, quantity};
 use crate::quantity::{Dimension, format_human};
-use crate::words;
+use crate::{keys, words};
 
 pub use harmonic::HarmonicDrive;
 pub use schedule::{Fineness, MAX_MOMENTS, Moment, Schedule, ScheduleError, Steps};
@@ -43,6 +44,45 @@ words! {
         /// The approach delta, in m.
         Approach = "approach",
     }
+}
+
+words! {
+    /// What a file may prescribe: a load, also as a mean pressure, or an approach.
+    pub enum Prescribed {
+        Load = "load",
+        Pressure = "pressure",
+        Approach = "approach",
+    }
+}
+
+impl Prescribed {
+    /// What is controlled, a pressure by its load.
+    pub fn control(self) -> Control {
+        match self {
+            Self::Load | Self::Pressure => Control::Load,
+            Self::Approach => Control::Approach,
+        }
+    }
+
+    /// What kind of quantity the values are.
+    pub fn dimension(self) -> Dimension {
+        match self {
+            Self::Pressure => Dimension::Stress,
+            Self::Load | Self::Approach => self.control().dimension(),
+        }
+    }
+}
+
+/// A load, a mean pressure where that is prescribed, or an approach.
+pub const PRESCRIBED: Number =
+    quantity(Dimension::Force).or_of(&[Dimension::Length, Dimension::Stress]);
+
+keys! {
+    /// What is prescribed: the load; the mean pressure on a periodic surface (load over the area of one period); or the approach. The
+    /// values below are then forces, stresses or lengths.
+    PRESCRIBES = "control", Kind::Word(Prescribed::WORDS), or Prescribed::Load;
+    /// Phase at the start of the oscillation.
+    PHASE = "phase", Kind::Number(quantity(Dimension::Angle)), or 0.0;
 }
 
 impl Control {

@@ -1,9 +1,61 @@
 //! A segment of a drive history, a step, a ramp, a polynomial, a sine or a table: its pieces, and how a file has it.
 
-use super::Control;
 use super::piece::{Form, Piece};
+use super::{Control, PHASE, PRESCRIBED};
+use crate::quantity::Dimension::{AngularFrequency, Frequency, Time};
+use crate::quantity::key::{Entries, Key, Kind, number, quantity};
+use crate::quantity::rows::Rows;
 use crate::quantity::setting::{Setting, Value};
 use crate::quantity::{Dimension, format_human};
+use crate::{choice, keys};
+
+choice! {
+    /// The kind of the segment; what it needs is listed below.
+    KIND = "kind", SegmentKind, BY_KIND:
+    /// A jump to a constant value.
+    Step = "step": &[&[TARGET, DURATION]];
+    /// A straight line from the end of the previous segment.
+    Ramp = "ramp": &[&[TARGET, DURATION]];
+    /// A polynomial of time.
+    Polynomial = "polynomial": &[&[COEFFICIENTS, DURATION]];
+    /// mean + amplitude sin(omega t + phase): exactly one of `angular_frequency` and `frequency`.
+    Sine = "sine": &[&[SINE_MEAN, SINE_AMPLITUDE, PHASE, CYCLES]],
+        &[&[&[SINE_ANGULAR_FREQUENCY]], &[&[SINE_FREQUENCY]]];
+    /// Straight lines between points: a `file`, or `times` and `values`.
+    Table = "table": &[], &[&[&[FILE]], &[&[TIMES, VALUES]]];
+}
+
+/// An item of `segments`.
+pub static SEGMENT: Rows = Rows {
+    means: " A part of the history.",
+    keys: &[&[KIND]],
+    others: BY_KIND,
+};
+
+keys! {
+    /// The value held, or reached at the end.
+    TARGET = "to", Kind::Number(PRESCRIBED);
+    /// Duration of the segment.
+    DURATION = "duration", Kind::Number(quantity(Time).above_zero());
+    /// Coefficients of 1, t, t^2, ... in SI units, with t from the start of the segment.
+    COEFFICIENTS = "coefficients", Kind::Numbers(number("2.0"), Entries::ANY);
+    /// Mean.
+    SINE_MEAN = "mean", Kind::Number(PRESCRIBED);
+    /// Amplitude.
+    SINE_AMPLITUDE = "amplitude", Kind::Number(PRESCRIBED.above_zero());
+    /// Number of cycles, not necessarily whole.
+    CYCLES = "cycles", Kind::Number(number("4.0").above_zero());
+    /// Angular frequency; Hz is accepted too.
+    SINE_ANGULAR_FREQUENCY = "angular_frequency", Kind::Number(quantity(AngularFrequency).above_zero());
+    /// Frequency; rad/s is accepted too.
+    SINE_FREQUENCY = "frequency", Kind::Number(quantity(Frequency).above_zero());
+    /// CSV file with the columns `time_s` and `load_n` or `approach_m`.
+    FILE = "file", Kind::Text;
+    /// Times, in place of a file; the first is 0 s, two equal ones are a jump.
+    TIMES = "times", Kind::Numbers(quantity(Time), Entries::ANY);
+    /// Their values.
+    VALUES = "values", Kind::Numbers(PRESCRIBED, Entries::ANY);
+}
 
 /// One segment of a drive history. Values are loads in N or approaches in m, as the history's [`Control`] says.
 #[derive(Debug, Clone, PartialEq)]
@@ -94,31 +146,32 @@ const STEPS_PER_SEGMENT: f64 = 100.0;
 impl Segment {
     /// The keys of the segment in a file, under such a control.
     pub fn settings(&self, control: Control) -> Vec<Setting> {
-        let to = |value: f64| Value::Quantity(value, control.dimension());
-        let time = |time_s: f64| Value::Quantity(time_s, Dimension::Time);
+        let to = |key: &Key, value: &f64| key.of(control.dimension()).setting(*value);
+        // Points may be many, and are written as bare numbers.
+        let bare = |key: &Key, values: &[f64]| key.setting(Value::Numbers(values.to_vec()));
         let (kind, settings) = match self {
             Self::Step {
                 to: end,
                 duration_s,
             } => (
-                "step",
-                vec![("to", to(*end)), ("duration", time(*duration_s))],
+                SegmentKind::Step,
+                vec![to(&TARGET, end), DURATION.setting(*duration_s)],
             ),
             Self::Ramp {
                 to: end,
                 duration_s,
             } => (
-                "ramp",
-                vec![("to", to(*end)), ("duration", time(*duration_s))],
+                SegmentKind::Ramp,
+                vec![to(&TARGET, end), DURATION.setting(*duration_s)],
             ),
             Self::Polynomial {
                 coefficients,
                 duration_s,
             } => (
-                "polynomial",
+                SegmentKind::Polynomial,
                 vec![
-                    ("coefficients", Value::Numbers(coefficients.clone())),
-                    ("duration", time(*duration_s)),
+                    bare(&COEFFICIENTS, coefficients),
+                    DURATION.setting(*duration_s),
                 ],
             ),
             Self::Sine {
@@ -128,32 +181,22 @@ impl Segment {
                 phase_rad,
                 cycles,
             } => (
-                "sine",
+                SegmentKind::Sine,
                 vec![
-                    ("mean", to(*mean)),
-                    ("amplitude", to(*amplitude)),
-                    (
-                        "angular_frequency",
-                        Value::Quantity(*omega, Dimension::AngularFrequency),
-                    ),
-                    ("phase", Value::Quantity(*phase_rad, Dimension::Angle)),
-                    ("cycles", (*cycles).into()),
+                    to(&SINE_MEAN, mean),
+                    to(&SINE_AMPLITUDE, amplitude),
+                    SINE_ANGULAR_FREQUENCY.setting(*omega),
+                    PHASE.setting(*phase_rad),
+                    CYCLES.setting(*cycles),
                 ],
             ),
             Self::Table { times_s, values } => (
-                "table",
-                vec![
-                    ("times", Value::Numbers(times_s.clone())),
-                    ("values", Value::Numbers(values.clone())),
-                ],
+                SegmentKind::Table,
+                vec![bare(&TIMES, times_s), bare(&VALUES, values)],
             ),
         };
-        let settings = settings
-            .into_iter()
-            .map(|(key, value)| Setting::new(key, value));
-        std::iter::once(Setting::new("kind", kind))
-            .chain(settings)
-            .collect()
+        let kind = std::iter::once(KIND.setting(kind));
+        kind.chain(settings).flatten().collect()
     }
 
     /// The shortest time (s) within which it changes.

@@ -1,8 +1,26 @@
 //! A drive history: segments one after another.
 
-use super::Control;
 use super::piece::Piece;
-use super::segment::{Segment, SegmentProblem};
+use super::segment::{SEGMENT, Segment, SegmentProblem};
+use super::{Control, PRESCRIBES};
+use crate::keys;
+use crate::quantity::key::Kind;
+use crate::quantity::rows::{Rows, table};
+use crate::quantity::setting::{Table, Value};
+
+/// More segments than this belong into a table.
+const MOST_SEGMENTS: usize = 10_000;
+
+keys! {
+    /// The segments, one after another; jumps between them are resolved exactly.
+    SEGMENTS = "segments", Kind::Tables(&SEGMENT, MOST_SEGMENTS, ", or a table: { kind = \"table\", file = \"drive.csv\" }");
+}
+
+/// The `[drive]` block of a scenario file.
+pub static HISTORY: Rows = table(
+    " A history of load or approach, starting at first touch.",
+    &[&[PRESCRIBES, SEGMENTS]],
+);
 
 /// Why a history is refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -48,6 +66,15 @@ const ZERO_LOAD: f64 = 1e-14;
 /// Values at a joint that differ by less than this part of their size differ by rounding.
 const SAME: f64 = 1e-12;
 impl SegmentedDrive {
+    /// The block of a file that gives the same history again.
+    pub fn table(&self) -> Table {
+        let segments = self.segments.iter();
+        let segments = segments.map(|segment| segment.settings(self.control));
+        Table::new("drive")
+            .and(PRESCRIBES.setting(self.control))
+            .and(SEGMENTS.setting(Value::Tables(segments.collect())))
+    }
+
     /// A history of these segments.
     ///
     /// # Errors

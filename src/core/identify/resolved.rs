@@ -1,10 +1,29 @@
 //! The resolved identification: every default written out, as a file that gives the same plan again.
 
-use crate::identify::{Driven, IdentifyPlan};
+use crate::identify::{ApproachZero, Driven, IdentifyPlan, MOST_BRANCHES};
+use crate::keys;
 use crate::quantity::block::Block as _;
+use crate::quantity::key::Kind;
+use crate::quantity::rows::{Rows, table};
 use crate::quantity::setting::{Table, Value, document};
-use crate::simulation::scenario::history_table;
-use crate::sweep::plan::resolved::{compressibility, drive_table, indenter_material_text};
+use crate::sweep::plan::resolved::{compressibility, indenter_material_text};
+
+keys! {
+    /// A table with columns of `sweep.csv`, with error columns if known, or a folder that holds `sweep.csv`. For a history: `time_s` and
+    /// `approach_m`, or `load_n` under a prescribed approach.
+    DATA = "data", Kind::Text;
+    /// Branches of the series: a number, or `auto` (the default): as many as the data require.
+    IDENTIFY_BRANCHES = "branches", Kind::Either(&Kind::AUTO, &Kind::Integer(1..=MOST_BRANCHES), ""), optional;
+    /// What smallest, largest and mean approaches of cycles are counted from; left out: unknown in a table of `analyse`, from first contact
+    /// in any other. Where it is unknown they are not data, and the mean of a prescribed approach is that of `[drive]`.
+    APPROACH_ZERO = "approach_zero", Kind::Word(ApproachZero::WORDS), optional;
+}
+
+/// The `[identify]` block.
+pub static IDENTIFY_TABLE: Rows = table(
+    " What was measured.",
+    &[&[DATA, IDENTIFY_BRANCHES, APPROACH_ZERO]],
+);
 
 /// The plan as the text of an identification file.
 pub fn resolved_text(plan: &IdentifyPlan) -> String {
@@ -13,13 +32,13 @@ pub fn resolved_text(plan: &IdentifyPlan) -> String {
         (plan.contact).blocks(known.indenter_material.as_ref().map(indenter_material_text));
     let material = Table::new("material").and(compressibility(&known.compressibility));
     let drive = match &plan.drive {
-        Driven::Cycles(drive) => drive_table(drive),
-        Driven::History(drive) => history_table(drive),
+        Driven::Cycles(drive) => drive.table(),
+        Driven::History(drive) => drive.table(),
     };
     let identify = Table::new("identify")
-        .with("data", &*plan.data)
-        .with("branches", plan.branches.map_or("auto".into(), Value::from))
-        .with_some("approach_zero", plan.approach_zero.map(|zero| zero.name()));
+        .and(DATA.setting(plan.data.clone()))
+        .and(IDENTIFY_BRANCHES.setting(plan.branches.map_or("auto".into(), Value::from)))
+        .and(APPROACH_ZERO.setting(plan.approach_zero));
     let solver = plan.solver.table_for(plan.contact.indenter.as_ref());
     let blocks = [
         material.toml(),

@@ -1,7 +1,30 @@
 //! Several asperities on one rigid body: the lower envelope of paraboloids, each with its own centre, radius and height.
 
-use super::{Domain, Indenter, IndenterError, Setting, Value, finite_position, positive_length};
+use super::{Domain, Indenter, IndenterError, LENGTH, POSITION, Setting, Value};
+use super::{finite_position, positive_length};
+use crate::keys;
 use crate::quantity::Dimension;
+use crate::quantity::key::{Entries, Kind, quantity};
+use crate::quantity::rows::{Rows, table};
+
+/// More asperities than this are a height map.
+const MOST_ASPERITIES: usize = 10_000;
+
+keys! {
+    /// The asperities.
+    ASPERITY_LIST = "asperities", Kind::Tables(&ASPERITY, MOST_ASPERITIES, ", or a height map");
+    /// Position of the summit along x and y.
+    CENTER = "center", Kind::Numbers(quantity(Dimension::Length), Entries::two(POSITION));
+    /// Radius of curvature at the summit.
+    ASPERITY_RADIUS = "radius", LENGTH;
+    /// Height of the summit towards the half-space.
+    ASPERITY_HEIGHT = "height", Kind::Number(quantity(Dimension::Length)), or 0.0;
+}
+
+static ASPERITY: Rows = table(
+    " One asperity.",
+    &[&[CENTER, ASPERITY_RADIUS, ASPERITY_HEIGHT]],
+);
 
 /// One spherical summit, in small-slope form.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,15 +119,18 @@ impl Indenter for Asperities {
 
     fn parameters(&self) -> Vec<Setting> {
         let table = |asperity: &Asperity| {
-            let center = vec![asperity.center_x_m, asperity.center_y_m];
-            vec![
-                Setting::new("center", Value::Quantities(center, Dimension::Length)),
-                Setting::length("radius", asperity.radius_m),
-                Setting::length("height", asperity.height_m),
-            ]
+            let settings = [
+                CENTER.setting(vec![asperity.center_x_m, asperity.center_y_m]),
+                ASPERITY_RADIUS.setting(asperity.radius_m),
+                ASPERITY_HEIGHT.setting(asperity.height_m),
+            ];
+            settings.into_iter().flatten().collect()
         };
         let tables = self.asperities.iter().map(table).collect();
-        vec![Setting::new("asperities", Value::Tables(tables))]
+        ASPERITY_LIST
+            .setting(Value::Tables(tables))
+            .into_iter()
+            .collect()
     }
 
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {

@@ -1,8 +1,9 @@
 //! The height map: a measured or computed indenter, given by one value per cell of a regular grid.
 
-use super::{Domain, Indenter, IndenterError, Setting, Value};
+use super::{Domain, Indenter, IndenterError, POSITION, Setting};
 use crate::quantity::Dimension;
-use crate::words;
+use crate::quantity::key::{Entries, Kind, quantity, words_of};
+use crate::{keys, words};
 
 /// Fewest points of a map in each direction: a contact needs a border of cells around it.
 pub(super) const MIN_CELLS: usize = 3;
@@ -34,10 +35,82 @@ words! {
     }
 }
 
-impl MapEdge {
-    /// The key `edge`.
-    pub fn parameter(self) -> Setting {
-        Setting::new("edge", self.name())
+/// Units of heights by their names, the one that counts where none is given first: how many of it make a metre, to which values
+/// are brought by a single rounding.
+pub const HEIGHT_UNITS: [(&str, f64); 6] = [
+    ("m", 1.0),
+    ("mm", 1e3),
+    ("um", 1e6),
+    ("µm", 1e6),
+    ("nm", 1e9),
+    ("pm", 1e12),
+];
+
+const UNIT_WORDS: [&str; HEIGHT_UNITS.len()] = words_of(&HEIGHT_UNITS);
+
+words! {
+    /// What is subtracted from the values of a map before they count.
+    pub enum MapLevel {
+        None = "none",
+        /// Their mean, which leaves the gap as it is: that counts from the point that touches first.
+        Mean = "mean",
+        /// The plane through them by least squares: the tilt of the instrument.
+        Plane = "plane",
+    }
+}
+
+keys! {
+    /// Distance between points of a matrix, or one for x and one for y; not for files with columns `x_m`, `y_m`, `z_m`.
+    MAP_SPACING = "spacing", Kind::Numbers(quantity(Dimension::Length).above_zero(), Entries::of(1..=2, POSITION)), optional;
+    /// Whether values are heights, positive towards the half-space, or gaps.
+    MAP_QUANTITY = "quantity", Kind::Word(MapQuantity::WORDS), or MapQuantity::Height;
+    /// Unit of the values of a matrix.
+    HEIGHT_UNIT = "height_unit", Kind::Word(&UNIT_WORDS), or UNIT_WORDS[0].to_owned();
+    /// What is subtracted from the values first: nothing, their mean, or the best-fit plane.
+    LEVEL = "level", Kind::Word(MapLevel::WORDS), or MapLevel::None;
+    /// What lies outside the map: unknown, so the contact must stay within; nothing (`rim`); or periodic repetitions of the map
+    /// (`periodic`), under a prescribed load.
+    EDGE = "edge", Kind::Word(MapEdge::WORDS), or MapEdge::Unknown;
+}
+
+impl MapLevel {
+    /// Subtracts it from values given row by row, `cells_x` in a row.
+    pub fn subtract(self, cells_x: usize, values: &mut [f64]) {
+        let count = values.len() as f64;
+        if self == Self::None || values.is_empty() {
+            return;
+        }
+        let mean = values.iter().sum::<f64>() / count;
+        values.iter_mut().for_each(|z| *z -= mean);
+        if self == Self::Mean {
+            return;
+        }
+        // About the middle of a grid the two directions do not mix, and either slope is a quotient of two sums.
+        let cells_y = values.len() / cells_x;
+        let middle = |cells: usize| 0.5 * (cells as f64 - 1.0);
+        let place = |at: usize| {
+            let (column, row) = (at % cells_x, at / cells_x);
+            [
+                column as f64 - middle(cells_x),
+                row as f64 - middle(cells_y),
+            ]
+        };
+        let (mut moment, mut inertia) = ([0.0; 2], [0.0; 2]);
+        for (at, z) in values.iter().enumerate() {
+            let place = place(at);
+            for axis in 0..2 {
+                moment[axis] += place[axis] * z;
+                inertia[axis] += place[axis] * place[axis];
+            }
+        }
+        let slope = [0, 1].map(|axis| match inertia[axis] > 0.0 {
+            true => moment[axis] / inertia[axis],
+            false => 0.0,
+        });
+        for (at, z) in values.iter_mut().enumerate() {
+            let [x, y] = place(at);
+            *z -= slope[0] * x + slope[1] * y;
+        }
     }
 }
 
@@ -92,20 +165,20 @@ impl HeightMap {
         for each_m in [spacing_m.0, spacing_m.1] {
             super::positive_length("spacing", each_m)?;
         }
-        let spacing = Value::Quantities(vec![spacing_m.0, spacing_m.1], Dimension::Length);
+        let parameters = [
+            MAP_QUANTITY.setting(quantity),
+            MAP_SPACING.setting(vec![spacing_m.0, spacing_m.1]),
+            HEIGHT_UNIT.setting(HEIGHT_UNITS[0].0.to_owned()),
+            LEVEL.setting(MapLevel::None),
+            EDGE.setting(edge),
+        ];
         Ok(Self {
             cells,
             spacing_m,
             gap_m: gap_from(values_m, quantity),
             edge,
             shape: Self::SHAPE,
-            parameters: vec![
-                Setting::new("quantity", quantity.name()),
-                Setting::new("spacing", spacing),
-                Setting::new("height_unit", "m"),
-                Setting::new("level", "none"),
-                edge.parameter(),
-            ],
+            parameters: parameters.into_iter().flatten().collect(),
         })
     }
 

@@ -14,16 +14,16 @@
 //! # Ok::<(), IndenterError>(())
 //! ```
 
-mod asperities;
+pub mod asperities;
 mod cone;
 mod ellipsoid;
 mod flat_punch;
-mod height_map;
+pub mod height_map;
 mod power_law;
 mod profile;
 mod reach;
 mod rough;
-mod shifted;
+pub mod shifted;
 mod sphere;
 
 pub use asperities::{Asperities, Asperity};
@@ -38,6 +38,7 @@ pub use rough::Roughness;
 pub use shifted::Shifted;
 pub use sphere::Sphere;
 
+use crate::keys;
 use crate::quantity::Dimension;
 use crate::quantity::block::Block;
 use crate::quantity::key::{Kind, quantity};
@@ -46,9 +47,23 @@ pub use crate::quantity::setting::{Setting, Value};
 /// What a length must be.
 const LENGTH: Kind = Kind::Number(quantity(Dimension::Length).above_zero());
 
+/// What to write in place of more or fewer numbers than a place on the surface takes.
+pub const POSITION: &str = "write one for x and one for y: [\"1 um\", \"0 um\"]";
+
+keys! {
+    /// Data file; its path is relative to this file, in a flag to the working folder.
+    FILE = "file", Kind::Text;
+    /// SHA-256 of the data file, in hexadecimal, to make sure that it has not changed.
+    SHA256 = "sha256", Kind::Text, optional;
+}
+
 /// The settings of a data file: its absolute path, so that it can be read again from anywhere, and the SHA-256 of its bytes.
 pub fn data_file(file: &str, sha256: &str) -> Vec<Setting> {
-    vec![Setting::new("file", file), Setting::new("sha256", sha256)]
+    let file = [
+        FILE.setting(file.to_owned()),
+        SHA256.setting(sha256.to_owned()),
+    ];
+    file.into_iter().flatten().collect()
 }
 
 /// The part of the surface that the half-space engine covers with cells: a rectangle centred on the origin.

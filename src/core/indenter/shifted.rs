@@ -2,8 +2,15 @@
 
 use std::sync::Arc;
 
-use super::{Domain, Indenter, IndenterError, Rim, Setting, Value, finite_position};
+use super::{Domain, Indenter, IndenterError, POSITION, Rim, Setting, finite_position};
+use crate::keys;
 use crate::quantity::Dimension;
+use crate::quantity::key::{Entries, Kind, quantity};
+
+keys! {
+    /// Moves the indenter along x and y.
+    OFFSET = "offset", Kind::Numbers(quantity(Dimension::Length), Entries::two(POSITION)), optional;
+}
 
 /// An indenter whose own origin lies at an offset.
 ///
@@ -51,10 +58,8 @@ impl Indenter for Shifted {
     }
 
     fn parameters(&self) -> Vec<Setting> {
-        let offset = vec![self.offset_x_m, self.offset_y_m];
         let mut parameters = self.inner.parameters();
-        let offset = Value::Quantities(offset, Dimension::Length);
-        parameters.push(Setting::new("offset", offset));
+        parameters.extend(OFFSET.setting(vec![self.offset_x_m, self.offset_y_m]));
         parameters
     }
 

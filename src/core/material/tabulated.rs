@@ -23,6 +23,7 @@
 //! monotone stay as they are.
 
 mod course;
+pub mod keys;
 
 use super::interpolant::Interpolant;
 use super::{MaterialError, MaterialFunction, ModulusKind};

@@ -2,8 +2,9 @@
 
 use std::ops::{Bound, Range, RangeBounds, RangeInclusive};
 
+use super::block::Field;
 use super::rows::Rows;
-use super::setting::Value;
+use super::setting::{Setting, Value};
 use super::{Dimension, format_human, format_si, parse};
 
 /// One key of a block. Reading, range checks, the JSON Schema, the reference in the guides and the resolved files come from it.
@@ -21,6 +22,20 @@ impl Key {
     /// What it means, as a sentence.
     pub fn means(&self) -> &'static str {
         self.means.trim_start()
+    }
+
+    /// The key with this value, where a resolved file has one.
+    pub fn setting<T: Field>(&self, value: T) -> Option<Setting> {
+        Some(Setting::new(self.name, value.written(&self.kind)?))
+    }
+
+    /// The same key once the dimension is chosen, of numbers that may have several.
+    #[must_use]
+    pub fn of(&self, dimension: Dimension) -> Self {
+        Self {
+            kind: self.kind.of(dimension),
+            ..self.clone()
+        }
     }
 
     pub fn is_required(&self) -> bool {

@@ -3,6 +3,9 @@
 
 use crate::material::interpolant::Interpolant;
 use crate::material::sampled::Sampled;
+use crate::material::tabulated::keys::{
+    EVALUATION, Evaluation, QUANTITY, TABLE_MODULUS, TIMES, VALUES,
+};
 use crate::material::{Creep, Material, MaterialError};
 use crate::quantity::setting::{Table, Value};
 use crate::sweep::plan::resolved;
@@ -136,11 +139,11 @@ impl BodyMaterial {
 fn samples_text(sampled: &Sampled) -> String {
     let table = sampled.table();
     let samples = Table::new("table")
-        .with("quantity", table.function().name())
-        .with("modulus", table.kind().name())
-        .with("evaluation", "direct")
-        .with("times", Value::Numbers(table.times_s().to_vec()))
-        .with("values", Value::Numbers(table.values().to_vec()));
+        .and(QUANTITY.setting(table.function()))
+        .and(TABLE_MODULUS.setting(table.kind()))
+        .and(EVALUATION.setting(Evaluation::Direct))
+        .and(TIMES.setting(Value::Numbers(table.times_s().to_vec())))
+        .and(VALUES.setting(Value::Numbers(table.values().to_vec())));
     let material = Table::new("material").with_some("name", sampled.name());
     let material = material.with("poisson_ratio", sampled.poisson_ratio());
     material.above([samples]).toml()

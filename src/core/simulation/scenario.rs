@@ -120,7 +120,7 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
         material.text(),
         contact.layer,
         contact.indenter,
-        history_table(drive).toml(),
+        drive.table().toml(),
         contact.adhesion,
         time.map_or(String::new(), |time| time.toml()),
         output.toml(),
@@ -128,14 +128,4 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
         figures.text(),
     ];
     document(title, blocks)
-}
-
-/// The `[drive]` block of a history.
-pub(crate) fn history_table(drive: &SegmentedDrive) -> Table {
-    let control = drive.control();
-    let segments = drive.segments().iter();
-    let segments = segments.map(|segment| segment.settings(control));
-    Table::new("drive")
-        .with("control", control.name())
-        .with("segments", Value::Tables(segments.collect()))
 }

@@ -1,68 +1,17 @@
 //! Keys of `[drive]` and `[sweep]`: an oscillation and its axes, or a history of segments.
 
 use super::material::MATERIAL;
-use crate::drive::Control;
-use crate::input::document::declare::keys;
+use crate::drive::harmonic::HARMONIC;
 use crate::input::indenter_block::{INDENTER, LISTED_INDENTER};
 use crate::input::points::{MOST_POINTS, Spacing};
-use crate::quantity::Dimension::{
-    self, Angle, AngularFrequency, Force, Frequency, Length, Stress, Time,
-};
+use crate::quantity::Dimension::{AngularFrequency, Frequency};
 use crate::quantity::block::Block as _;
 use crate::quantity::key::{AxesOf, Key, Kind, Number, quantity};
 use crate::quantity::rows::{Others, Rows, table};
-use crate::sweep::plan::Block;
+use crate::sweep::plan::axes::PAIRS;
 use crate::sweep::plan::layer::LayerPlan;
-use contact_dma_core::words;
-
-words! {
-    /// What may be prescribed: a load, also as a mean pressure, or an approach.
-    pub(crate) enum Prescribed {
-        Load = "load",
-        Pressure = "pressure",
-        Approach = "approach",
-    }
-}
-
-impl Prescribed {
-    /// What is controlled, a pressure by its load.
-    pub(crate) fn control(self) -> Control {
-        match self {
-            Self::Load | Self::Pressure => Control::Load,
-            Self::Approach => Control::Approach,
-        }
-    }
-
-    /// What kind of quantity the values are.
-    pub(crate) fn dimension(self) -> Dimension {
-        match self {
-            Self::Pressure => Stress,
-            Self::Load | Self::Approach => self.control().dimension(),
-        }
-    }
-}
-
-/// A load, a mean pressure where that is prescribed, or an approach.
-pub(crate) const PRESCRIBED: Number = quantity(Force).or_of(&[Length, Stress]);
-
-keys! {
-    /// What is prescribed: the load; the mean pressure on a periodic surface (load over the area of one period); or the approach. The
-    /// values below are then forces, stresses or lengths.
-    PRESCRIBES = "control", Kind::Word(Prescribed::WORDS), or Prescribed::Load;
-    /// Mean; the sum of mean and amplitude must be above zero.
-    MEAN = "mean", Kind::Number(PRESCRIBED);
-    /// Amplitude; a load is held at zero where the sine would be negative.
-    AMPLITUDE = "amplitude", Kind::Number(PRESCRIBED.above_zero());
-    /// Phase at the start of the oscillation.
-    PHASE = "phase", Kind::Number(quantity(Angle)), or 0.0;
-    /// Hold at the mean before the oscillation.
-    HOLD = "hold", Kind::Number(quantity(Time).not_negative()), or 0.0;
-}
-
-pub(super) static HARMONIC: Rows = table(
-    " mean + amplitude sin(omega t + phase), after a hold at the mean.",
-    &[&[PRESCRIBES, MEAN, AMPLITUDE, PHASE, HOLD]],
-);
+use crate::sweep::plan::{Block, REFINE};
+use contact_dma_core::keys;
 
 /// Blocks of which a sweep may have a list.
 pub(in crate::input) const LISTED: [&str; 2] = [Block::Material.name(), Block::Indenter.name()];
@@ -96,10 +45,6 @@ keys! {
     MATERIAL_AXIS = "material", axes(Block::Material, &MATERIAL, Some(&MATERIAL)), optional;
     /// The same over a number of the layer: `layer.thickness = ["10 um", "1 mm"]`.
     LAYER_AXIS = "layer", axes(Block::Layer, &LayerPlan::ROWS, None), optional;
-    /// Whether the values of several axes of equal length are paired one by one, instead of combined.
-    PAIRS = "pairs", Kind::Flag, or false;
-    /// Whether frequencies are added where the given ones do not resolve the loss curve.
-    REFINE = "refine", Kind::Flag, or false;
 }
 
 const SWEEP_KEYS: &[Key] = &[

@@ -3,13 +3,12 @@
 use std::ops::Bound;
 
 use super::material::EQUILIBRIUM;
-use crate::input::document::declare::{choice, keys};
 use crate::material::{ModulusKind, fractional};
 use crate::quantity::Dimension::{AngularFrequency, Stress, Time};
 use crate::quantity::block::Block as _;
 use crate::quantity::key::{Entries, Kind, Limits, number, quantity};
 use crate::quantity::rows::Rows;
-use contact_dma_core::block;
+use contact_dma_core::{block, choice, keys};
 
 const BAND_PAIR: &str = "write the lowest and the highest frequency that you compute at, above zero: \
                          band = [\"1e-3 rad/s\", \"1e5 rad/s\"]";

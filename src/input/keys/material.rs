@@ -1,23 +1,14 @@
 //! Keys of `[material]`: a series, a model of few elements, measured data or a material of the library.
 
 use super::fractional;
-use crate::input::document::declare::keys;
 use crate::input::dynamic::DynamicFormat;
 use crate::material::dynamic::{Choices, MOST_BRANCHES, MOST_REPLICAS};
-use crate::material::{CreepBranch, MaterialFunction, ModulusKind, RelaxationBranch};
+use crate::material::{CreepBranch, ModulusKind, RelaxationBranch, tabulated};
 use crate::quantity::Dimension::{Compliance, Stress, Temperature, Time, Viscosity};
 use crate::quantity::block::Block as _;
 use crate::quantity::key::{self, Entries, Key, Kind, Number, number, quantity};
 use crate::quantity::rows::{List, Others, Rows, table};
-use contact_dma_core::{block, words};
-
-words! {
-    /// How the samples of a table enter.
-    pub(crate) enum Evaluation {
-        Fit = "fit",
-        Direct = "direct",
-    }
-}
+use contact_dma_core::{block, keys};
 
 /// What to write where an element of a model with few of them has no strength or no time.
 const ELASTIC: &str =
@@ -84,7 +75,7 @@ keys! {
     /// dynamic data, or the temperature of the only isotherm or of the library's data.
     TEMPERATURE = "temperature", Kind::Number(TEMPERATURES), optional;
     /// Measured creep compliance or relaxation modulus.
-    MEASURED_TABLE = "table", Kind::Table(&TABLE);
+    MEASURED_TABLE = "table", Kind::Table(&tabulated::keys::TABLE);
     /// Other series that fit the same data: a relaxation series beside `relaxation`, a creep series beside `creep`, without their
     /// `modulus` or `compliance`. What they change is reported as an uncertainty.
     RELAXATION_ALTERNATIVE = "alternative", Kind::Tables(&RELAXATION_SERIES, MOST_ALTERNATIVES, ""), optional;
@@ -294,29 +285,6 @@ static INDENTER_ISOTHERM: Rows = table(
 );
 
 keys! {
-    /// What the data are of.
-    QUANTITY = "quantity", Kind::Word(MaterialFunction::WORDS);
-    /// Whether they are uniaxial or in shear.
-    TABLE_MODULUS = "modulus", KINDS;
-    /// `fit`: a series is fitted and its misfit reported with the results; `direct` (single histories only): the samples are used directly.
-    EVALUATION = "evaluation", Kind::Word(Evaluation::WORDS), or Evaluation::Fit;
-    /// Whether to fit a fluid; left out: as the data indicate, a solid if they do not decide.
-    FLOW = "flow", Kind::Flag, optional;
-    /// CSV file with the columns `time_s` and `creep_compliance_per_pa` or `relaxation_modulus_pa`, or in other units.
-    FILE = "file", Kind::Text;
-    /// Times of the samples, in place of a file.
-    TIMES = "times", Kind::Numbers(quantity(Time), Entries::ANY);
-    /// Their values.
-    VALUES = "values", Kind::Numbers(quantity(Compliance).or_of(&[Stress]), Entries::ANY);
-}
-
-static TABLE: Rows = Rows {
-    means: " Measured data: a `file`, or `times` and `values`.",
-    keys: &[&[QUANTITY, TABLE_MODULUS, EVALUATION, FLOW]],
-    others: Others::OneList(&[&[&[FILE]], &[&[TIMES, VALUES]]]),
-};
-
-keys! {
     /// Format of the files; left out: detected from their content.
     FORMAT = "format", Kind::Word(DynamicFormat::WORDS), optional;
     /// Whether the moduli are Young's or shear moduli.
@@ -332,3 +300,21 @@ static DYNAMIC_TABLE: Rows = Rows {
     keys: &[&[FORMAT, DYNAMIC_MODULUS], Choices::KEYS],
     others: Others::OneList(&[&[&[DYNAMIC_FILE]], &[&[DYNAMIC_FILES]]]),
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_said_of_the_block_names_every_form() {
+        let named = |rows: &Rows, key: &Key| rows.means.contains(&format!("`{}`", key.name));
+        for (key, form) in &FORMS {
+            assert!(named(&MATERIAL, key), "{form:?}");
+        }
+        let branches = INDENTER_MATERIAL.branches();
+        for (first, _) in branches.iter().flat_map(|branch| &branch.decided_by) {
+            let is_named = INDENTER_MATERIAL.means.contains(&format!("`{first}`"));
+            assert!(is_named, "{first}");
+        }
+    }
+}

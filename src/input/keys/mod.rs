@@ -8,9 +8,10 @@ pub(crate) mod material;
 pub(super) mod setup;
 
 use super::axis::AxisOf;
-use super::document::declare::keys;
 use super::scenario_file::TimePlan;
-use super::{figures_block, indenter_block, segments_block};
+use super::{figures_block, indenter_block};
+use crate::drive::harmonic::HARMONIC;
+use crate::drive::segments;
 use crate::engine::SolverPlan;
 use crate::quantity::block::Block as _;
 use crate::quantity::key::{Key, Kind};
@@ -19,7 +20,7 @@ use crate::simulation::scenario::OutputPlan;
 use crate::sweep::plan::CyclePlan;
 use crate::sweep::plan::adhesion::AdhesionPlan;
 use crate::sweep::plan::layer::LayerPlan;
-use contact_dma_core::words;
+use contact_dma_core::{keys, words};
 
 words! {
     /// The kinds of input files.
@@ -59,7 +60,7 @@ keys! {
     /// The indenter.
     INDENTER = "indenter", Kind::Table(&indenter_block::INDENTER);
     /// The load or the approach: an oscillation about a mean.
-    DRIVE = "drive", Kind::Table(&drive::HARMONIC);
+    DRIVE = "drive", Kind::Table(&HARMONIC);
     /// Adhesion of a sphere under a prescribed load.
     ADHESION = "adhesion", Kind::Table(&AdhesionPlan::ROWS), optional;
     /// The frequencies, and optional further axes.
@@ -71,7 +72,7 @@ keys! {
     /// Appearance of figures; does not affect results.
     FIGURES = "figures", Kind::Table(&figures_block::OF_SWEEP), optional;
     /// The load or the approach: a history of segments.
-    HISTORY = "drive", Kind::Table(&segments_block::HISTORY);
+    HISTORY = "drive", Kind::Table(&segments::HISTORY);
     /// Time steps.
     TIME = "time", Kind::Table(&TimePlan::ROWS), optional;
     /// What is written in addition to the history.

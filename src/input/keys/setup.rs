@@ -1,12 +1,11 @@
 //! Keys of a setup file: the instrument and the contact of measured loops.
 
-use crate::input::document::declare::keys;
 use crate::input::indenter_block::INDENTER;
 use crate::measured::Corrections;
 use crate::quantity::block::Block as _;
 use crate::quantity::key::{self, Entries, Kind, Limits, number};
 use crate::quantity::rows::{Rows, table};
-use contact_dma_core::{block, words};
+use contact_dma_core::{block, keys, words};
 
 words! {
     /// Where the contact radius comes from.

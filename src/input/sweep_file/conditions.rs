@@ -388,8 +388,8 @@ mod tests {
     use std::cell::RefCell;
 
     use super::*;
+    use crate::drive::harmonic::{AMPLITUDE, MEAN};
     use crate::input::document::Document;
-    use crate::input::keys::drive::{AMPLITUDE, MEAN};
 
     /// What is read of `[drive]`, in order, and what each condition has of it, in a sweep with these axes.
     fn readings(axes: &str) -> (Vec<f64>, Vec<f64>) {

@@ -8,10 +8,16 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use super::{Condition, SweepPlan};
 use crate::drive::{Control, DriveError, HarmonicDrive};
 use crate::quantity::Dimension;
-use crate::words;
+use crate::quantity::key::Kind;
+use crate::{keys, words};
 
 /// Axes besides the frequency, at most.
 pub const MOST: usize = 4;
+
+keys! {
+    /// Whether the values of several axes of equal length are paired one by one, instead of combined.
+    PAIRS = "pairs", Kind::Flag, or false;
+}
 
 /// Conditions that differ in one number or a few.
 #[derive(Debug, Clone)]

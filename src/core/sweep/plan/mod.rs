@@ -22,10 +22,15 @@ use crate::quantity::block::Conflict;
 use crate::quantity::key::{Kind, Limits, tolerance};
 use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::figures::FigurePlan;
-use crate::{block_with_defaults, words};
+use crate::{block_with_defaults, keys, words};
 
 /// Cases of a small sweep, at most.
 pub const SMALL: usize = 200;
+
+keys! {
+    /// Whether frequencies are added where the given ones do not resolve the loss curve.
+    REFINE = "refine", Kind::Flag, or false;
+}
 
 /// Everything a sweep needs to know. Two equal plans give equal results, bit for bit.
 #[derive(Debug, Clone)]

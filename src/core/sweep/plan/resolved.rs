@@ -5,16 +5,16 @@ use std::fmt::Write;
 
 use sha2::{Digest, Sha256};
 
-use crate::drive::HarmonicDrive;
 use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::quantity::Dimension;
 use crate::quantity::block::Block as _;
 use crate::quantity::setting::{Setting, Table, Value, document};
+use crate::sweep::plan::axes::PAIRS;
 pub(crate) use crate::sweep::plan::material_text::compressibility;
 use crate::sweep::plan::material_text::{material_table, table_over_temperatures};
 pub use crate::sweep::plan::material_text::{material_text, material_text_without_poisson_ratio};
-use crate::sweep::plan::{Axes, AxisValue, Block, Condition, SweepPlan, Varied};
+use crate::sweep::plan::{Axes, AxisValue, Block, Condition, REFINE, SweepPlan, Varied};
 
 /// The plan as the text of a sweep file.
 pub fn resolved_text(plan: &SweepPlan) -> String {
@@ -53,12 +53,12 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
     let frequencies = Value::QuantityLines(frequencies, Dimension::AngularFrequency);
     let sweep = Table::new("sweep")
         .and(axes.map(numbers).into_iter().flatten())
-        .with_some("refine", refine.then_some(true))
+        .and(REFINE.setting(refine.then_some(true)))
         .with("angular_frequency", frequencies);
     let listed = axes.iter().flat_map(|axes| axes.over.iter().enumerate());
     let listed = listed.flat_map(|(axis, varied)| listed_blocks(plan, axis, varied));
     let opening = [material, contact.layer, contact.indenter];
-    let drive = [drive_table(&base.drive).toml(), contact.adhesion];
+    let drive = [base.drive.table().toml(), contact.adhesion];
     let settings = [cycle.table().toml(), solver.toml(), figures.text()];
     let blocks = opening.into_iter().chain(drive).chain([sweep.toml()]);
     document(title, blocks.chain(listed).chain(settings))
@@ -80,22 +80,8 @@ fn numbers(axes: &Axes) -> Vec<Setting> {
             false => Setting::new(varied.path(), values),
         }
     });
-    let pairs = axes.pairs.then(|| Setting::new("pairs", true));
+    let pairs = PAIRS.setting(axes.pairs.then_some(true));
     numbers.chain(pairs).collect()
-}
-
-/// The `[drive]` block of an oscillation.
-pub(crate) fn drive_table(drive: &HarmonicDrive) -> Table {
-    let dimension = drive.control().dimension();
-    Table::new("drive")
-        .with("control", drive.control().name())
-        .with("mean", Value::Quantity(drive.mean(), dimension))
-        .with("amplitude", Value::Quantity(drive.amplitude(), dimension))
-        .with(
-            "phase",
-            Value::Quantity(drive.phase_rad(), Dimension::Angle),
-        )
-        .with("hold", Value::Quantity(drive.hold_s(), Dimension::Time))
 }
 
 /// The `[indenter.material]` block.
