@@ -225,11 +225,7 @@ fn library_entry(block: &mut TableReader<'_>) -> Option<&'static LibraryEntry> {
 
 /// The times between which a user's own series was measured; `None` where a problem was reported.
 fn measured(block: &mut TableReader<'_>, form: Form) -> Option<Option<(f64, f64)>> {
-    let says_itself = matches!(
-        form,
-        Form::Library | Form::Elastic | Form::Fractional | Form::Measured
-    );
-    if let (true, Some(place)) = (says_itself, block.key_location(&MEASURED)) {
+    if let (false, Some(place)) = (form.goes_with(&MEASURED), block.key_location(&MEASURED)) {
         block
             .problems()
             .at(&place, "this material says itself when it was measured")

@@ -5,7 +5,7 @@ use super::{Control, PHASE, PRESCRIBED};
 use crate::quantity::Dimension::{AngularFrequency, Frequency, Time};
 use crate::quantity::key::{Entries, Key, Kind, number, quantity};
 use crate::quantity::rows::Rows;
-use crate::quantity::setting::{Setting, Value};
+use crate::quantity::setting::Setting;
 use crate::quantity::{Dimension, format_human};
 use crate::{choice, keys};
 
@@ -147,8 +147,7 @@ impl Segment {
     /// The keys of the segment in a file, under such a control.
     pub fn settings(&self, control: Control) -> Vec<Setting> {
         let to = |key: &Key, value: &f64| key.of(control.dimension()).setting(*value);
-        // Points may be many, and are written as bare numbers.
-        let bare = |key: &Key, values: &[f64]| key.setting(Value::Numbers(values.to_vec()));
+        let bare = |key: &Key, values: &[f64]| key.setting(values.to_vec()).map(Setting::bare);
         let (kind, settings) = match self {
             Self::Step {
                 to: end,
@@ -170,7 +169,7 @@ impl Segment {
             } => (
                 SegmentKind::Polynomial,
                 vec![
-                    bare(&COEFFICIENTS, coefficients),
+                    COEFFICIENTS.setting(coefficients.clone()),
                     DURATION.setting(*duration_s),
                 ],
             ),

@@ -127,10 +127,7 @@ impl Indenter for Asperities {
             settings.into_iter().flatten().collect()
         };
         let tables = self.asperities.iter().map(table).collect();
-        ASPERITY_LIST
-            .setting(Value::Tables(tables))
-            .into_iter()
-            .collect()
+        vec![Setting::new(ASPERITY_LIST.name, Value::Tables(tables))]
     }
 
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {

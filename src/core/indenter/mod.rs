@@ -59,11 +59,9 @@ keys! {
 
 /// The settings of a data file: its absolute path, so that it can be read again from anywhere, and the SHA-256 of its bytes.
 pub fn data_file(file: &str, sha256: &str) -> Vec<Setting> {
-    let file = [
-        FILE.setting(file.to_owned()),
-        SHA256.setting(sha256.to_owned()),
-    ];
-    file.into_iter().flatten().collect()
+    [(FILE, file), (SHA256, sha256)]
+        .map(|(key, value)| Setting::new(key.name, value))
+        .into()
 }
 
 /// The part of the surface that the half-space engine covers with cells: a rectangle centred on the origin.

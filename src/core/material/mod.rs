@@ -37,6 +37,7 @@ pub mod export;
 pub mod fit;
 pub mod fractional;
 pub mod interpolant;
+pub mod keys;
 pub mod library;
 pub mod sampled;
 pub mod tabulated;

@@ -167,7 +167,7 @@ impl Field for bool {
 impl Field for f64 {
     fn written(&self, kind: &Kind) -> Option<Value> {
         Some(match kind {
-            Kind::Number(number) => number.value(*self),
+            Kind::Number(number) | Kind::Either(Kind::Number(number), ..) => number.value(*self),
             _ => Value::Number(*self),
         })
     }

@@ -55,6 +55,17 @@ impl Setting {
         Self::new(key, Value::Quantity(value_m, Dimension::Length))
     }
 
+    /// The same without its unit, as one of many numbers is written.
+    #[must_use]
+    pub fn bare(self) -> Self {
+        let value = match self.value {
+            Value::Quantity(number, _) => Value::Number(number),
+            Value::Quantities(numbers, _) => Value::Numbers(numbers),
+            other => other,
+        };
+        Self { value, ..self }
+    }
+
     /// The line that gives the setting, without its end.
     pub fn toml(&self) -> String {
         format!("{} = {}", self.key, self.value.toml())

@@ -2,12 +2,13 @@
 //! by the direct sum over all that came before.
 
 use crate::material::interpolant::Interpolant;
+use crate::material::keys::{NAME, POISSON_RATIO};
 use crate::material::sampled::Sampled;
 use crate::material::tabulated::keys::{
     EVALUATION, Evaluation, QUANTITY, TABLE_MODULUS, TIMES, VALUES,
 };
 use crate::material::{Creep, Material, MaterialError};
-use crate::quantity::setting::{Table, Value};
+use crate::quantity::setting::{Setting, Table};
 use crate::sweep::plan::resolved;
 
 /// The material of a history.
@@ -142,10 +143,11 @@ fn samples_text(sampled: &Sampled) -> String {
         .and(QUANTITY.setting(table.function()))
         .and(TABLE_MODULUS.setting(table.kind()))
         .and(EVALUATION.setting(Evaluation::Direct))
-        .and(TIMES.setting(Value::Numbers(table.times_s().to_vec())))
-        .and(VALUES.setting(Value::Numbers(table.values().to_vec())));
-    let material = Table::new("material").with_some("name", sampled.name());
-    let material = material.with("poisson_ratio", sampled.poisson_ratio());
+        .and(TIMES.setting(table.times_s().to_vec()).map(Setting::bare))
+        .and(VALUES.setting(table.values().to_vec()).map(Setting::bare));
+    let material = Table::new("material")
+        .and(NAME.setting(sampled.name().map(str::to_owned)))
+        .and(POISSON_RATIO.setting(sampled.poisson_ratio()));
     material.above([samples]).toml()
 }
 

@@ -1,7 +1,11 @@
 //! A material as the blocks of a sweep file that give the same material again.
 
+use crate::material::keys::{
+    AtTemperature, BULK_MODULUS, COMPLIANCE, CREEP, CREEP_BRANCHES, EQUILIBRIUM, INSTANTANEOUS,
+    MEASURED, MEASURED_TEMPERATURES, MODULUS, NAME, POISSON_RATIO, RELAXATION,
+    RELAXATION_ALTERNATIVE, RELAXATION_BRANCHES, REPLICAS, Replica, TEMPERATURE, VISCOSITY,
+};
 use crate::material::{Compressibility, Material, MaterialFunction, Relaxation};
-use crate::quantity::Dimension;
 use crate::quantity::block::Block as _;
 use crate::quantity::setting::{Setting, Table, Value};
 
@@ -25,19 +29,19 @@ pub(super) fn material_table(material: &Material) -> Table {
     if material.origin.temperature_k.is_some() {
         return table_over_temperatures([material].into_iter());
     }
-    let kind = material.kind().name();
+    let kind = material.kind();
     let function = match given_relaxation(material) {
-        Some(_) => Table::new("relaxation").with("modulus", kind),
-        None => Table::new("creep").with("compliance", kind),
+        Some(_) => Table::new(RELAXATION.name).and(MODULUS.setting(kind)),
+        None => Table::new(CREEP.name).and(COMPLIANCE.setting(kind)),
     };
     let function = function.and(series(material, Value::Tables));
     let bulk = material.compressibility().bulk_modulus();
     let bulk = bulk.filter(|bulk| !bulk.branches().is_empty());
-    let bulk = bulk.map(|bulk| Table::new("bulk_modulus").and(relaxation(bulk, Value::Tables)));
+    let bulk = bulk.map(|bulk| Table::new(BULK_MODULUS.name).and(relaxation(bulk, Value::Tables)));
     let alternatives = material.origin.alternatives.iter();
     // There may be dozens, so the branches of each are one line.
     let alternatives = alternatives.map(|other| {
-        let alternative = Table::new("alternative").listed();
+        let alternative = Table::new(RELAXATION_ALTERNATIVE.name).listed();
         alternative.and(series(other, Value::TablesInLine))
     });
     head(material)
@@ -65,49 +69,40 @@ pub(super) fn table_over_temperatures<'a>(materials: impl Iterator<Item = &'a Ma
 /// What stands above the numbers: name, Poisson ratio and temperature.
 fn head(material: &Material) -> Table {
     Table::new("material")
-        .with_some("name", material.name())
+        .and(NAME.setting(material.name().map(str::to_owned)))
         .and(compressibility(material.compressibility()))
-        .with_some("temperature", temperature(material))
+        .and(TEMPERATURE.setting(material.origin.temperature_k))
 }
 
 /// A Poisson ratio, or a bulk modulus that is constant in time.
 pub(crate) fn compressibility(compressibility: &Compressibility) -> Option<Setting> {
     if let Some(nu) = compressibility.poisson_ratio() {
-        return Some(Setting::new("poisson_ratio", nu));
+        return POISSON_RATIO.setting(nu);
     }
-    let bulk_pa = compressibility.constant_bulk_modulus_pa()?;
-    let bulk = Value::Quantity(bulk_pa, Dimension::Stress);
-    Some(Setting::new("bulk_modulus", bulk))
-}
-
-fn temperature(material: &Material) -> Option<Value> {
-    let temperature_k = material.origin.temperature_k?;
-    Some(Value::Quantity(temperature_k, Dimension::Temperature))
+    BULK_MODULUS.setting(compressibility.constant_bulk_modulus_pa())
 }
 
 fn isotherm(material: &Material) -> Table {
     let origin = &material.origin;
-    let law = origin
-        .shift
-        .map(|law| Value::Numbers(vec![law.c1, law.c2_k]));
-    let ends = origin.isotherms_k.map(|(lowest_k, highest_k)| {
-        Value::Quantities(vec![lowest_k, highest_k], Dimension::Temperature)
-    });
-    Table::new("isotherm")
+    let at = |temperature_k| AtTemperature {
+        temperature_k,
+        wlf: origin.shift.map(|law| vec![law.c1, law.c2_k]),
+        activation_energy: None,
+    };
+    let at = origin.temperature_k.map(|kelvin| at(kelvin).table());
+    let ends_k = origin.isotherms_k.map(|(low, high)| vec![low, high]);
+    at.unwrap_or_else(|| Table::new(AtTemperature::NAME))
         .listed()
-        .with_some("temperature", temperature(material))
-        .with_some("wlf", law)
         .and(measured(material))
-        .with_some("measured_temperatures", ends)
-        .with("modulus", material.kind().name())
+        .and(MEASURED_TEMPERATURES.setting(ends_k))
+        .and(MODULUS.setting(material.kind()))
         .and(series(material, Value::Tables))
         .and(replicas(material))
 }
 
 fn measured(material: &Material) -> Option<Setting> {
-    let (first_s, last_s) = material.origin.measured_window_s?;
-    let window = Value::Quantities(vec![first_s, last_s], Dimension::Time);
-    Some(Setting::new("measured", window))
+    let window_s = material.origin.measured_window_s;
+    MEASURED.setting(window_s.map(|(first, last)| vec![first, last]))
 }
 
 /// The replicas, as bare numbers: there may be hundreds.
@@ -115,16 +110,15 @@ fn replicas(material: &Material) -> Option<Setting> {
     let replicas = material.origin.replicas.iter();
     let replicas = replicas.filter_map(Material::relaxation).map(|replica| {
         let branches = || replica.branches().iter();
-        let moduli = branches().map(|branch| branch.modulus_pa).collect();
-        let times = branches().map(|branch| branch.time_s).collect();
-        vec![
-            Setting::new("equilibrium", replica.equilibrium_modulus()),
-            Setting::new("moduli", Value::Numbers(moduli)),
-            Setting::new("times", Value::Numbers(times)),
-        ]
+        let replica = Replica {
+            equilibrium_pa: replica.equilibrium_modulus(),
+            moduli_pa: branches().map(|branch| branch.modulus_pa).collect(),
+            times_s: branches().map(|branch| branch.time_s).collect(),
+        };
+        replica.settings().map(Setting::bare).collect()
     });
     let rows: Vec<_> = replicas.collect();
-    (!rows.is_empty()).then(|| Setting::new("replicas", Value::Tables(rows)))
+    REPLICAS.setting((!rows.is_empty()).then_some(Value::Tables(rows)))
 }
 
 /// The relaxation modulus of a material that was given by it.
@@ -142,24 +136,21 @@ fn series(material: &Material, rows: Rows) -> Vec<Setting> {
         return relaxation(given, rows);
     }
     let creep = material.creep();
-    let instantaneous = creep.instantaneous_compliance();
-    let instantaneous = Value::Quantity(instantaneous, Dimension::Compliance);
-    let viscosity = creep.viscosity_pa_s();
-    let viscosity = viscosity.map(|value| Value::Quantity(value, Dimension::Viscosity));
-    let viscosity = viscosity.map(|viscosity| Setting::new("viscosity", viscosity));
     let branches = creep.branches().iter().map(|b| b.settings().collect());
-    let mut settings = vec![Setting::new("instantaneous", instantaneous)];
-    settings.extend(viscosity);
-    settings.push(Setting::new("branches", rows(branches.collect())));
-    settings
+    let settings = [
+        INSTANTANEOUS.setting(creep.instantaneous_compliance()),
+        VISCOSITY.setting(creep.viscosity_pa_s()),
+        CREEP_BRANCHES.setting(rows(branches.collect())),
+    ];
+    settings.into_iter().flatten().collect()
 }
 
 fn relaxation(relaxation: &Relaxation, rows: Rows) -> Vec<Setting> {
-    let equilibrium = Value::Quantity(relaxation.equilibrium_modulus(), Dimension::Stress);
     let branches = relaxation.branches().iter();
     let branches = branches.map(|b| b.settings().collect());
-    vec![
-        Setting::new("equilibrium", equilibrium),
-        Setting::new("branches", rows(branches.collect())),
-    ]
+    let settings = [
+        EQUILIBRIUM.setting(relaxation.equilibrium_modulus()),
+        RELAXATION_BRANCHES.setting(rows(branches.collect())),
+    ];
+    settings.into_iter().flatten().collect()
 }
