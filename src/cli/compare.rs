@@ -101,10 +101,22 @@ fn to_json(comparison: &Comparison) -> Value {
 
 /// Refuses a folder without a table of cycles.
 fn refuse_without_table(result: &Path) -> Result<(), Failure> {
-    match kind_of(result) {
-        Ok(Some(Kind::Analysis)) => Ok(()),
-        _ if result.is_dir() => refuse_other(result, "compare"),
-        _ => Ok(()),
+    if !result.is_dir() {
+        return Ok(());
+    }
+    let remedy = match kind_of(result) {
+        Ok(Some(Kind::Analysis)) => "`contact-dma analyse` makes it anew".to_owned(),
+        _ => {
+            refuse_other(result, "compare")?;
+            format!("`contact-dma report {}` writes it again", result.display())
+        }
+    };
+    match result.join("sweep.csv").exists() {
+        true => Ok(()),
+        false => Err(Failure::Input(format!(
+            "{} is not whole: its sweep.csv is missing; {remedy}",
+            result.display()
+        ))),
     }
 }
 

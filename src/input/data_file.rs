@@ -13,9 +13,10 @@
 //! Every problem is shown at its place, all of a file at once.
 //!
 //! Bytes become a text in `text`, those of a workbook one for every sheet in `workbook`; `grid` cuts it into lines of cells, of which a
-//! `section` is a table: a header, perhaps a row of units (`units`), and rows of numbers (`numbers`). Files of instruments, in
-//! [`super::dynamic`], are read by the same sections.
+//! `section` is a table: a header of names (`column`), perhaps a row of units (`units`), and rows of numbers (`numbers`). Files of
+//! instruments, in [`super::dynamic`], are read by the same sections and columns.
 
+pub(crate) mod column;
 pub(crate) mod grid;
 mod numbers;
 pub(crate) mod section;
@@ -28,188 +29,15 @@ use std::sync::Arc;
 
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source};
 use super::document::{Located, cannot_read, read_limited};
-use crate::quantity::Dimension;
+pub(crate) use column::{Column, Holds, TIME};
 use grid::{Grid, Line};
 use section::{Asked, Section};
 pub(crate) use section::{Holes, Table};
 use text::DELIMITERS;
-use units::{Scale, split_unit, unit_of_suffix};
+use units::Scale;
 
 /// Largest file read, bytes: a map of 4096 x 4096 points with 30 characters each.
 pub const MAX_BYTES: usize = 512_000_000;
-
-/// A column that is looked for.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Column {
-    /// Its names without unit, in lower case and joined by `_`.
-    pub(crate) names: &'static [&'static str],
-    /// What follows each of them: `_error`, of errors.
-    pub(crate) ending: &'static str,
-    pub(crate) dimension: Dimension,
-    /// What it holds, in the plural: `times`.
-    pub(crate) what: &'static str,
-    /// Whether it may be without a unit, and is then in SI units.
-    pub(crate) unit_may_be_absent: bool,
-    /// Whether the table may be without it.
-    pub(crate) is_optional: bool,
-    /// Whether of several of its names in one table the first in their order counts; else it must be there once.
-    pub(crate) first_name_counts: bool,
-}
-
-/// Times, of any table.
-pub(crate) const TIME: Column = Column {
-    unit_may_be_absent: true,
-    ..Column::new(&["time"], Dimension::Time, "times")
-};
-
-impl Column {
-    /// A column that must have a unit.
-    pub(crate) const fn new(
-        names: &'static [&'static str],
-        dimension: Dimension,
-        what: &'static str,
-    ) -> Self {
-        Self {
-            names,
-            ending: "",
-            dimension,
-            what,
-            unit_may_be_absent: false,
-            is_optional: false,
-            first_name_counts: false,
-        }
-    }
-
-    /// The column of the same names with this ending.
-    pub(crate) const fn with(self, ending: &'static str, what: &'static str) -> Self {
-        Self {
-            ending,
-            what,
-            ..self
-        }
-    }
-
-    /// The same column of a table that may be without it.
-    pub(crate) const fn optional(self) -> Self {
-        Self {
-            is_optional: true,
-            ..self
-        }
-    }
-
-    /// The same column, of whose names in one table the first in their order counts.
-    pub(crate) const fn by_first_name(self) -> Self {
-        Self {
-            first_name_counts: true,
-            ..self
-        }
-    }
-
-    /// The name with its SI unit, as this program writes it: `creep_compliance_per_pa`.
-    pub(crate) fn name_in_si(&self) -> String {
-        let unit = self.dimension.si_unit().to_lowercase();
-        let unit = match unit.strip_prefix("1/") {
-            Some(divisor) => format!("per_{divisor}"),
-            None => unit.replace('/', "_per_").replace(' ', "_"),
-        };
-        format!(
-            "{}{}_{unit}",
-            self.names.first().unwrap_or(&""),
-            self.ending
-        )
-    }
-
-    /// Whether a name of one letter stands for this column: with a unit, by its dimension, and `t` without one is no `T`.
-    fn is_symbol(&self, name: &str, unit: Option<&str>) -> bool {
-        match unit {
-            Some(unit) => units::scale(unit, self.dimension).is_ok(),
-            None => self.dimension != Dimension::Time || name == "t",
-        }
-    }
-
-    fn is_named(&self, cell: &str) -> bool {
-        self.name_in(cell).is_some()
-    }
-
-    /// Where the column stands in a table, and the unit beside its name; `None` where it is not there and need not be.
-    fn found(&self, section: &Section<'_>) -> Result<Option<(usize, Option<String>)>, Diagnostic> {
-        let cells = section.header.texts().enumerate();
-        let found = cells.filter_map(|(place, cell)| Some((self.name_in(cell)?, place)));
-        let mut found: Vec<((usize, Option<String>), usize)> = found.collect();
-        if self.first_name_counts {
-            let first = found.iter().map(|((name, _), _)| *name).min();
-            found.retain(|((name, _), _)| Some(*name) == first);
-        }
-        let mut found = found.into_iter();
-        match (found.next(), found.next()) {
-            (None, _) if self.is_optional => Ok(None),
-            (None, _) => Err(self.missing(section)),
-            (Some(((_, unit), place)), None) => Ok(Some((place, unit))),
-            (Some((_, first)), Some((_, second))) => Err(section.twice([first, second], self.what)),
-        }
-    }
-
-    /// What is read of a column that was found.
-    fn asked(
-        &self,
-        section: &Section<'_>,
-        (place, unit): (usize, Option<String>),
-    ) -> Result<Asked, Diagnostic> {
-        let (what, name) = (self.what, section.header.text(place));
-        let scale = section.scale((place, what), unit.as_deref(), |unit| match unit {
-            Some(unit) => units::scale(unit, self.dimension),
-            None if self.unit_may_be_absent => Ok(Scale::ONE),
-            None => Err(format!("write `{name} [{}]`", self.dimension.si_unit())),
-        })?;
-        Ok(Asked { place, scale, what })
-    }
-
-    fn missing(&self, section: &Section<'_>) -> Diagnostic {
-        let (name, header) = (self.name_in_si(), &section.header);
-        let problem = Diagnostic::at(&section.grid.place(0), format!("no column `{name}`"));
-        if (0..header.len()).any(|cell| header.is_number(cell)) {
-            return problem
-                .because("numbers")
-                .help("begin the table with a line of column names");
-        }
-        let delimiter = section.grid.delimiter();
-        let by = DELIMITERS.iter().find(|(known, _)| *known == delimiter);
-        let because = match (header.len(), by) {
-            (1, _) | (_, None) => "one column".to_owned(),
-            (count, Some((_, by))) => format!("{count} columns, separated by {by}"),
-        };
-        let (first, unit) = (self.names.first(), self.dimension.common_unit());
-        problem.because(because).help(format!(
-            "name the column of {} with its unit, such as `{name}` or `{} [{unit}]`",
-            self.what,
-            first.unwrap_or(&""),
-        ))
-    }
-
-    /// Which of its names a cell of the header has, and the unit there, if any; `None` where it names another column.
-    fn name_in(&self, cell: &str) -> Option<(usize, Option<String>)> {
-        let (name, unit) = split_unit(cell);
-        let name = name.trim().replace([' ', '-'], "_");
-        self.names.iter().enumerate().find_map(|(which, known)| {
-            let (head, rest) = name.split_at_checked(known.len())?;
-            let (ending, rest) = rest.split_at_checked(self.ending.len())?;
-            let is_ending = ending.eq_ignore_ascii_case(self.ending);
-            if !head.eq_ignore_ascii_case(known) || !is_ending {
-                return None;
-            }
-            let unit = match (rest.strip_prefix('_'), unit) {
-                // `T (°C)` and `D (mm)` are symbols of something else, and so is `T` alone.
-                (None, _) if rest.is_empty() && known.len() == 1 && !self.is_symbol(head, unit) => {
-                    return None;
-                }
-                (None, _) if rest.is_empty() => unit.map(str::to_owned),
-                (Some(suffix), None) => Some(unit_of_suffix(suffix, self.dimension)?),
-                _ => return None,
-            };
-            Some((which, unit))
-        })
-    }
-}
 
 /// What messages call a file, and its bytes.
 ///
@@ -328,19 +156,12 @@ impl DataFile {
                 .into());
         }
         let grid = Grid::of_table(&self.source, header.delimiter(), usize::MAX);
-        let is_wanted = |cell: &str| wanted.iter().any(|column| column.is_named(cell));
         let names = grid.line(0);
-        let section = Section::new(&grid, 0, grid.len(), |place| is_wanted(names.text(place)));
-        let found = wanted.iter().map(|column| column.found(&section));
-        let found = found.collect::<Result<Vec<_>, _>>()?.into_iter();
-        let asked = wanted.iter().zip(found).map(|(column, found)| {
-            let asked = found.map(|found| column.asked(&section, found));
-            asked.transpose()
-        });
-        let asked: Vec<Option<Asked>> = asked.collect::<Result<_, _>>()?;
-        let problems = Problems::new();
-        let table = section.read(&asked, holes, without_number, &problems);
-        problems.into_result(Some(table))
+        let is_wanted = |place| {
+            let ways = column::ways(names.text(place));
+            wanted.iter().any(|column| column.named(&ways).is_some())
+        };
+        Section::new(&grid, 0, grid.len(), is_wanted).table(wanted, holes, without_number)
     }
 
     /// All cells as numbers: a matrix without a header.
@@ -401,10 +222,16 @@ impl DataFile {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::quantity::Dimension;
     use proptest::prelude::*;
 
     const MODULUS: Column = Column::new(&["e'", "storage_modulus"], Dimension::Stress, "moduli");
     const FREQUENCY: Column = Column::new(&["f", "frequency"], Dimension::Frequency, "frequencies");
+
+    /// The unit that a cell of a header gives of a column, where it names that.
+    fn unit_in(column: Column, cell: &str) -> Option<Option<String>> {
+        Some(column.named(&column::ways(cell))?.unit)
+    }
 
     fn read(text: &str) -> Result<Vec<[f64; 2]>, String> {
         let file = DataFile::from_bytes("dma.txt", text.as_bytes());
@@ -444,28 +271,29 @@ mod tests {
             ("storage modulus (mPa)", Some(Some("mPa"))),
             ("Storage-Modulus[N/mm^2]", Some(Some("N/mm^2"))),
             ("E' / GPa", Some(Some("GPa"))),
+            ("E’/GPa", Some(Some("GPa"))),
+            ("Storage modulus, MPa", Some(Some("MPa"))),
+            ("Storage modulus in kPa", Some(Some("kPa"))),
+            ("Storage modulus E' (Pa)", Some(Some("Pa"))),
+            ("E'/sin(delta)", None),
             ("E'", Some(None)),
             ("E''", None),
             ("storage_modulus_error", None),
             ("storage_modulus_s", None),
             ("modulus", None),
         ] {
-            let found = MODULUS.name_in(cell);
-            let found = found.as_ref().map(|(_, unit)| unit.as_deref());
+            let found = unit_in(MODULUS, cell);
+            let found = found.as_ref().map(Option::as_deref);
             assert_eq!(found, unit, "{cell}");
         }
         let compliance = Column::new(&["d"], Dimension::Compliance, "values");
         assert_eq!(compliance.name_in_si(), "d_per_pa");
-        assert_eq!(
-            compliance.name_in("D_per_GPa"),
-            Some((0, Some("1/GPa".to_owned())))
-        );
+        let unit = unit_in(compliance, "D_per_GPa");
+        assert_eq!(unit.flatten().as_deref(), Some("1/GPa"));
         let rate = Column::new(&["w"], Dimension::AngularFrequency, "frequencies");
         assert_eq!(rate.name_in_si(), "w_rad_per_s");
-        assert_eq!(
-            rate.name_in("w_rad_per_s"),
-            Some((0, Some("rad/s".to_owned())))
-        );
+        let unit = unit_in(rate, "w_rad_per_s");
+        assert_eq!(unit.flatten().as_deref(), Some("rad/s"));
     }
 
     #[test]
@@ -559,11 +387,11 @@ mod tests {
         let file = DataFile::from_bytes("dma.txt", b"E' [Pa],storage_modulus_pa,f_hz\n1,2,3\n");
         let file = file.unwrap();
         let read = |columns: &[Column]| file.columns(columns, Holes::Refused, "leave it out");
-        let error = MODULUS.with("_error", "errors");
+        let error = MODULUS.of_errors(Holds::Errors, "errors");
         let table = read(&[MODULUS.by_first_name(), error.optional()]).unwrap();
         assert_eq!((table.number(0, 0), table.has(1)), (Some(1.0), false));
         assert_eq!(error.name_in_si(), "e'_error_pa");
-        assert_eq!(error.name_in("Storage_Modulus_Error_MPa").unwrap().0, 1);
+        assert!(error.is_named("Storage_Modulus_Error_MPa"));
         for columns in [[MODULUS, FREQUENCY], [FREQUENCY, error]] {
             assert!(read(&columns).is_err());
         }

@@ -187,7 +187,7 @@ mod tests {
             ),
             (
                 "x,y,z\n1,2,3\n",
-                ["map.csv:1:1", "has no unit", "write `x [m]`"],
+                ["map.csv:1:1", "has no unit", "such as `x [mm]`"],
             ),
         ] {
             refused(field("map.csv", text.as_bytes()), &expected);

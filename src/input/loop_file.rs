@@ -14,13 +14,13 @@ use crate::quantity::Dimension::{Force, Length, Time};
 const COLUMNS: [Column; 4] = [
     Column::new(&["time", "test_time", "elapsed_time", "timestamp", "time_stamp", "t"], Time, "times").by_first_name(),
     Column::new(
-        &["load", "normal_load", "contact_load", "load_on_sample", "indent_act._load", "force", "normal_force", "fn", "fz", "w", "p"],
+        &["load", "normal_load", "contact_load", "load_on_sample", "indent_act_load", "force", "normal_force", "fn", "fz", "w", "p"],
         Force, "loads",
     ).by_first_name(),
     Column::new(
         &[
-            "approach", "depth", "indentation_depth", "penetration_depth", "indentation", "penetration", "indent_disp.",
-            "displacement_into_surface", "displacement", "disp.", "disp", "delta", "h", "d",
+            "approach", "depth", "indentation_depth", "penetration_depth", "indentation", "penetration", "indent_disp",
+            "displacement_into_surface", "displacement", "disp", "delta", "h", "d",
         ],
         Length, "approaches",
     ).by_first_name(),

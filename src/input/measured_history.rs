@@ -1,6 +1,6 @@
 //! Tables of a measured history: times, and the approach under a prescribed load or the load under a prescribed approach.
 
-use super::data_file::{Column, DataFile, Holes, TIME};
+use super::data_file::{Column, DataFile, Holds, Holes, TIME};
 use super::diagnostic::{Diagnostic, Diagnostics, Problems};
 use crate::drive::{Control, SegmentedDrive};
 use crate::identify::data::{Reading, TableColumns};
@@ -25,7 +25,7 @@ pub(super) fn parse(
         Control::Load => Column::new(&["approach", "depth"], Dimension::Length, "approaches"),
         Control::Approach => Column::new(&["load", "force"], Dimension::Force, "loads"),
     };
-    let error = value.with("_error", "errors");
+    let error = value.of_errors(Holds::Errors, "errors");
     let file = DataFile::from_bytes(name, bytes)?;
     let wanted = [TIME, value, error.optional()];
     let without_number = "write a number, or leave the cell empty where nothing was measured";

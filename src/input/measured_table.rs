@@ -1,6 +1,6 @@
 //! Tables of measured cycles: columns of `sweep.csv` under their names, one row a cycle, cells empty where nothing was measured.
 
-use super::data_file::{Column, DataFile, Holes, Table};
+use super::data_file::{Column, DataFile, Holds, Holes, Table};
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems};
 use crate::drive::{Control, HarmonicDrive};
 use crate::identify::ApproachZero;
@@ -24,12 +24,12 @@ struct Measured {
 impl Measured {
     /// Standard deviations, or in a table of an analysis half widths of the interval of 95 %.
     fn error(&self) -> Column {
-        self.value.with("_error", "errors")
+        self.value.of_errors(Holds::Errors, "errors")
     }
 
     /// Standard deviations in every table.
     fn standard_error(&self) -> Column {
-        self.value.with("_standard_error", "errors")
+        self.value.of_errors(Holds::StandardErrors, "errors")
     }
 
     fn columns(&self) -> [Column; 3] {
@@ -261,7 +261,7 @@ struct Rows<'a> {
 impl Rows<'_> {
     /// The place of a column, where the table has it.
     fn place_of(&self, column: &Column) -> Option<usize> {
-        let is_it = |of: &Column| (of.names, of.ending) == (column.names, column.ending);
+        let is_it = |of: &Column| (of.names, of.holds) == (column.names, column.holds);
         self.wanted.iter().position(is_it)
     }
 

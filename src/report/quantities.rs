@@ -41,6 +41,7 @@ pub enum Place<'a> {
     /// Of a cell that may be empty.
     Optional(&'a mut Option<f64>),
     Count(&'a mut usize),
+    OptionalCount(&'a mut Option<usize>),
     Text(&'a mut String),
 }
 

@@ -168,7 +168,7 @@ impl Folder<'_> {
         let surface = |of: Indexed| {
             let grid = match (of.cells, of.spacing_m) {
                 ([Some(x), Some(y)], [Some(x_m), Some(y_m)]) => {
-                    let grid = Grid::new(x as usize, y as usize, x_m, y_m);
+                    let grid = Grid::new(x, y, x_m, y_m);
                     Some(grid.map_err(|error| self.wrong(&file, error.to_string()))?)
                 }
                 _ => None,

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::ReportError;
 use super::npy;
 use super::profile_lines::{self, Profile, ProfilePoint};
-use super::quantities::Place::{Count, Number, Optional, Text};
+use super::quantities::Place::{Count, Number, Optional, OptionalCount, Text};
 use super::quantities::{self, Column, PlaceIn};
 use super::table::Cell;
 use super::vti;
@@ -84,12 +84,8 @@ pub(super) struct Indexed {
     pub(super) index: usize,
     pub(super) row: HistoryRow,
     /// Cells along x and y and their sides (m), of a surface on a grid.
-    pub(super) cells: [Option<f64>; 2],
+    pub(super) cells: [Option<usize>; 2],
     pub(super) spacing_m: [Option<f64>; 2],
-}
-
-fn count(number: Option<f64>) -> Cell {
-    number.map(|number| number as u64).into()
 }
 
 type OfIndex = Column<Indexed>;
@@ -102,8 +98,8 @@ pub(super) static INDEX: &[OfIndex] = &[
     OfIndex::new("load_n", |r| r.row.load_n.into(), "load W").read_into(|r| Number(&mut r.row.load_n)),
     OfIndex::new("approach_m", |r| r.row.approach_m.into(), "approach δ").read_into(|r| Optional(&mut r.row.approach_m)),
     OfIndex::new("contact_radius_m", |r| r.row.contact_radius_m.into(), "contact radius a").read_into(|r| Number(&mut r.row.contact_radius_m)),
-    OfIndex::new("cells_x", |r| count(r.cells[0]), "cells along x; empty along a radius").read_into(|r| Optional(&mut r.cells[0])),
-    OfIndex::new("cells_y", |r| count(r.cells[1]), "cells along y").read_into(|r| Optional(&mut r.cells[1])),
+    OfIndex::new("cells_x", |r| r.cells[0].into(), "cells along x; empty along a radius").read_into(|r| OptionalCount(&mut r.cells[0])),
+    OfIndex::new("cells_y", |r| r.cells[1].into(), "cells along y").read_into(|r| OptionalCount(&mut r.cells[1])),
     OfIndex::new("spacing_x_m", |r| r.spacing_m[0].into(), "side of a cell along x").read_into(|r| Optional(&mut r.spacing_m[0])),
     OfIndex::new("spacing_y_m", |r| r.spacing_m[1].into(), "side along y").read_into(|r| Optional(&mut r.spacing_m[1])),
 ];
@@ -112,7 +108,7 @@ fn index(surfaces: impl Iterator<Item = (HistoryRow, Option<Grid>)>) -> Vec<u8> 
     let row = |(index, (row, grid)): (usize, (HistoryRow, Option<Grid>))| Indexed {
         index,
         row,
-        cells: [Grid::cells_x, Grid::cells_y].map(|of| grid.map(|grid| of(&grid) as f64)),
+        cells: [Grid::cells_x, Grid::cells_y].map(|of| grid.map(|grid| of(&grid))),
         spacing_m: [Grid::spacing_x_m, Grid::spacing_y_m].map(|of| grid.map(|grid| of(&grid))),
     };
     let rows: Vec<Indexed> = surfaces.enumerate().map(row).collect();

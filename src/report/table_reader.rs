@@ -85,11 +85,14 @@ fn fill(place: Place<'_>, cell: &str) -> Result<(), &'static str> {
         let number = cell.parse().ok().filter(|number: &f64| number.is_finite());
         number.ok_or("no finite number")
     };
+    let count = || cell.parse().map_err(|_| "no whole number");
     match place {
         Place::Number(value) => *value = number()?,
         Place::Optional(value) if cell.is_empty() => *value = None,
         Place::Optional(value) => *value = Some(number()?),
-        Place::Count(value) => *value = cell.parse().map_err(|_| "no whole number")?,
+        Place::Count(value) => *value = count()?,
+        Place::OptionalCount(value) if cell.is_empty() => *value = None,
+        Place::OptionalCount(value) => *value = Some(count()?),
         Place::Text(value) => cell.clone_into(value),
     }
     Ok(())

@@ -128,4 +128,15 @@ fn columns_that_other_steps_leave_unjudged_are_counted() {
     assert_eq!(code, 0, "{text}");
     let unjudged = "3 not judged: other steps or nodes, no error bars";
     says(&text, &[unjudged]);
+    fs::remove_file(place.path("a/sweep.csv")).unwrap();
+    let refused = place.refused("compare a b.csv");
+    says(
+        &refused,
+        &[
+            "a is not whole: its sweep.csv is missing",
+            "`contact-dma report a`",
+        ],
+    );
+    place.done("report a");
+    assert_eq!(compared(&place, "a a").0, 0);
 }

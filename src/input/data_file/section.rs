@@ -3,10 +3,11 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::column::Column;
 use super::grid::{Grid, Line, line_at};
 use super::numbers::{self, Cell, Numbers};
 use super::units::{self, Scale};
-use crate::input::diagnostic::{Diagnostic, Location, Problems, Source};
+use crate::input::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source};
 
 /// What is made of a cell that is empty or says that there is no number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -81,42 +82,65 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// What turns the numbers of a column into SI units. Its name gives the unit `above`, or none; `read` reads one, or says what to do
-    /// where there is none.
+    /// The columns asked for, in SI units.
+    ///
+    /// # Errors
+    /// An absent column or two of it, an absent or wrong unit, or what [`Section::read`] reports.
+    pub(crate) fn table(
+        &self,
+        wanted: &[Column],
+        holes: Holes,
+        without_number: &str,
+    ) -> Result<Table, Diagnostics> {
+        let found = wanted.iter().map(|column| column.found(self));
+        let found = found.collect::<Result<Vec<_>, _>>()?.into_iter();
+        let asked = wanted.iter().zip(found).map(|(column, found)| {
+            let asked = found.map(|(place, unit)| self.asked(column, place, unit.as_deref()));
+            asked.transpose()
+        });
+        let asked: Vec<Option<Asked>> = asked.collect::<Result<_, _>>()?;
+        let problems = Problems::new();
+        let table = self.read(&asked, holes, without_number, &problems);
+        problems.into_result(Some(table))
+    }
+
+    /// What is read of a column, whose name gives the unit `above`, or none.
     ///
     /// # Errors
     /// No unit, one that cannot be read, another one below the name.
-    pub(crate) fn scale(
+    pub(crate) fn asked(
         &self,
-        (place, what): (usize, &str),
+        column: &Column,
+        place: usize,
         above: Option<&str>,
-        read: impl Fn(Option<&str>) -> Result<Scale, String>,
-    ) -> Result<Scale, Diagnostic> {
-        let name = self.header.place(place);
+    ) -> Result<Asked, Diagnostic> {
+        let (what, name) = (column.what, self.header.place(place));
         let below = self.units.as_ref();
         let below = below.and_then(|row| Some((units::given(row.text(place))?, row.place(place))));
+        let scale = |unit: Option<&str>| column.scale(self.header.text(place), unit);
         let read_at = |unit: &str, at: &Location| {
-            read(Some(unit)).map_err(|why| {
+            scale(Some(unit)).map_err(|why| {
                 Diagnostic::at(at, format!("`{unit}` is no unit of the column of {what}"))
                     .because(why)
             })
         };
-        match (above.and_then(units::given), below) {
-            (Some(unit), None) => read_at(unit, &name),
-            (None, Some((unit, at))) => read_at(unit, &at),
+        let scale = match (above.and_then(units::given), below) {
+            (Some(unit), None) => read_at(unit, &name)?,
+            (None, Some((unit, at))) => read_at(unit, &at)?,
             (Some(above), Some((below, at))) => {
                 let scale = read_at(above, &name)?;
-                match scale == read_at(below, &at)? {
-                    true => Ok(scale),
-                    false => Err(Diagnostic::at(&at, "the header gives another unit")
+                if scale != read_at(below, &at)? {
+                    return Err(Diagnostic::at(&at, "the header gives another unit")
                         .label(&name, "this one")
-                        .help("keep one of the two")),
+                        .help("keep one of the two"));
                 }
+                scale
             }
-            (None, None) => read(None).map_err(|help| {
+            (None, None) => scale(None).map_err(|help| {
                 Diagnostic::at(&name, format!("the column of {what} has no unit")).help(help)
-            }),
-        }
+            })?,
+        };
+        Ok(Asked { place, scale, what })
     }
 
     /// Two columns where one is meant.

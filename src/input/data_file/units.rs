@@ -29,9 +29,9 @@ pub(crate) fn bare(unit: &str) -> &str {
     unit.trim_matches(['[', ']', '(', ')', ' ', '\u{a0}'])
 }
 
-/// A unit that is one.
+/// A unit that is one, and no sign that there is none.
 pub(crate) fn given(unit: &str) -> Option<&str> {
-    Some(bare(unit)).filter(|unit| !["", "-"].contains(unit))
+    Some(bare(unit)).filter(|unit| !["", "-", "1"].contains(unit))
 }
 
 /// Whether a text is a unit, of whatever.
@@ -101,34 +101,34 @@ pub(crate) fn kelvin(celsius: &str) -> Option<f64> {
     (kelvin.is_finite() && kelvin > 0.0).then_some(kelvin)
 }
 
-/// Name and unit in `Time [s]`, `Time (s)` and `Time / s`; the argument of `E(t)` is no unit.
-pub(crate) fn split_unit(cell: &str) -> (&str, Option<&str>) {
-    let bracketed = [('[', ']'), ('(', ')')]
-        .into_iter()
-        .find_map(|(open, close)| cell.strip_suffix(close)?.rsplit_once(open))
-        .filter(|(_, unit)| *unit != "t");
-    match bracketed.or_else(|| cell.rsplit_once(" / ")) {
-        Some((name, unit)) => (name, Some(unit.trim())),
-        None => (cell, None),
+/// The units that words joined to a name may be: `per_mpa`, `ms`, `rad_per_s`, `c`.
+pub(super) fn joined(suffix: &str) -> [String; 3] {
+    let lower = suffix.to_lowercase();
+    // A stroke parts a name from its unit.
+    if suffix.starts_with('/') {
+        return Default::default();
     }
-}
-
-/// The unit that `per_mpa`, `ms` or `rad_per_s` stand for, where it is one of this dimension.
-pub(crate) fn unit_of_suffix(suffix: &str, dimension: Dimension) -> Option<String> {
     let spelt = |word: &str| {
         let usual = ["Pa", "kPa", "MPa", "GPa", "N", "kN", "Hz", "J"];
         let known = usual.iter().find(|usual| usual.eq_ignore_ascii_case(word));
         known.copied().unwrap_or(word).to_owned()
     };
-    let words = |text: &str| text.split('_').map(spelt).collect::<Vec<_>>().join(" ");
-    let unit = |text: &str| words(text).replace("per ", "/").replace(" /", "/");
-    let candidates = [unit(suffix), unit(&suffix.to_lowercase())];
-    let is_unit = |unit: &String| quantity::parse(&format!("1 {unit}"), dimension).is_ok();
-    let unit = candidates.into_iter().find(is_unit)?;
-    Some(match unit.starts_with('/') {
-        true => format!("1{unit}"),
-        false => unit,
-    })
+    let unit = |words: &str| {
+        let words = words.split('_').map(spelt).collect::<Vec<_>>().join(" ");
+        let unit = words.replace("per ", "/").replace(" /", "/");
+        match unit.starts_with('/') {
+            true => format!("1{unit}"),
+            false => unit,
+        }
+    };
+    let spoken = match lower.as_str() {
+        "c" | "°c" | "degc" | "deg_c" | "celsius" => "°C",
+        "k" | "kelvin" => "K",
+        "rad_s" | "rads" | "rad_per_sec" | "rad_s_1" => "rad/s",
+        "percent" | "pct" | "rel_percent" => "%",
+        _ => "",
+    };
+    [spoken.to_owned(), unit(suffix), unit(&lower)]
 }
 
 #[cfg(test)]

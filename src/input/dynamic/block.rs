@@ -207,7 +207,7 @@ impl<'a> Block<'a> {
             if self.section.by_instrument || which == 2 {
                 return Row::Noise;
             }
-            let message = format!("{} must be positive", asked.role.what());
+            let message = format!("{} must be positive", asked.asked.what);
             let help = "leave the row out: a measured value that is not positive is noise";
             return Row::Refused(Diagnostic::at(&table.cell(row, which), message).help(help));
         }
@@ -286,14 +286,16 @@ impl<'a> Block<'a> {
         match (asked.as_slice(), others.first()) {
             ([], Some((other, _))) => return Err(self.other_modulus(*other, kind)),
             ([(first, _), (second, _), ..], _) if !self.section.by_instrument => {
-                return Err(self.section.twice([*first, *second], role.what()));
+                return Err(self.section.twice([*first, *second], role.column().what));
             }
             _ => {}
         }
         let read = asked.iter().map(|(place, named)| {
+            let above = named.unit.as_deref();
             Ok(Column {
+                asked: self.section.asked(role.column(), *place, above)?,
+                role,
                 unit: self.unit_of(*place, named),
-                ..Column::at(*place, role, self.scale(*place, named)?)
             })
         });
         let read: Vec<Result<Column, Diagnostic>> = read.collect();
@@ -306,18 +308,6 @@ impl<'a> Block<'a> {
         let below = self.section.units.as_ref().map(|units| units.text(place));
         let unit = named.unit.as_deref().or(below).and_then(given)?;
         Some(unit.to_owned())
-    }
-
-    fn scale(&self, place: usize, named: &Named) -> Result<Scale, Diagnostic> {
-        let name = self.section.header.text(place);
-        let read = |unit: Option<&str>| match (named.role, unit) {
-            (Role::Frequency, None) => Err(format!(
-                "write `{name} [Hz]` or `{name} [rad/s]`: they differ by a factor of 6.28"
-            )),
-            (role, unit) => columns::scale(role, unit),
-        };
-        let column = (place, named.role.what());
-        self.section.scale(column, named.unit.as_deref(), read)
     }
 
     /// The names of the columns, with their units, and what is assumed.
@@ -366,7 +356,7 @@ enum Row {
 impl Column {
     /// One of a known role that is in this place.
     pub(super) fn at(place: usize, role: Role, scale: Scale) -> Self {
-        let what = role.what();
+        let what = role.column().what;
         Self {
             asked: Asked { place, scale, what },
             role,
@@ -376,7 +366,7 @@ impl Column {
 
     /// The error of a modulus (Pa).
     fn absolute(&self, error: f64, modulus_pa: f64) -> f64 {
-        match self.unit.as_deref().is_some_and(columns::is_relative) {
+        match self.unit.as_deref() == Some("%") {
             true => error * modulus_pa,
             false => error,
         }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::Reading;
 use super::block::{Block, Column, Columns};
-use super::columns::{self, Role};
+use super::columns::Role;
 use crate::input::data_file::grid::{Grid, Line};
 use crate::input::data_file::section::Section;
 use crate::input::data_file::units::{self, Scale};
@@ -102,9 +102,9 @@ fn temperature(grid: &Grid, reading: &mut Reading) -> Result<Option<f64>, Diagno
 
 /// The units of the first three columns, where a line holds units.
 fn scales(line: &Line<'_>) -> Option<[Scale; 3]> {
-    let scale = |cell: usize, role| {
+    let scale = |cell: usize, role: Role| {
         let unit = Some(line.text(cell)).filter(|unit| units::is_unit(unit))?;
-        columns::scale(role, Some(unit)).ok()
+        role.column().scale("", Some(unit)).ok()
     };
     let [omega, storage] = [scale(0, Role::Frequency)?, scale(1, Role::Storage)?];
     Some([omega, storage, scale(2, Role::Loss)?])

@@ -3,25 +3,28 @@
 
 use std::path::Path;
 
-use super::columns::{self, Role};
+use super::columns::TEMPERATURE;
+use crate::input::data_file::column::Column;
 use crate::input::data_file::grid::{self, Grid, Line};
-use crate::input::data_file::section::{Asked, Section};
-use crate::input::data_file::units::Scale;
+use crate::input::data_file::section::Section;
 use crate::input::data_file::{self, Holes};
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Problems};
 use crate::quantity::ZERO_CELSIUS_K;
 
-/// Names of the shift factors, in lower case.
-const NAMES: [&str; 9] = [
-    "log_at",
-    "log10_a_t",
-    "log10_at",
-    "log(at)",
-    "log10(at)",
-    "log at",
-    "log a_t",
-    "log_a_t",
-    "log10 at",
+/// Temperatures and shift factors.
+const COLUMNS: [Column; 2] = [
+    TEMPERATURE,
+    Column::pure(
+        &[
+            "log_at",
+            "log10_a_t",
+            "log10_at",
+            "log(at)",
+            "log10(at)",
+            "log_a_t",
+        ],
+        "shift factors",
+    ),
 ];
 
 /// Temperatures (K) and decadic logarithms of the shift factors, in the order of the file.
@@ -40,8 +43,14 @@ pub fn read_shift_factors(path: &Path) -> Result<Vec<(f64, f64)>, Diagnostics> {
 pub fn shift_factors_from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<(f64, f64)>, Diagnostics> {
     data_file::within(name, bytes, super::MAX_BYTES, super::FEWER)?;
     let (source, _) = grid::source(name, bytes)?;
-    let is_header = |grid: &Grid, line| places(&grid.header(line)).map(|_| ());
-    let found = Grid::best(&source, is_header);
+    let names = |cells: &Line<'_>, column: &Column| cells.texts().any(|cell| column.is_named(cell));
+    let found = Grid::best(&source, |grid, line| {
+        let cells = grid.header(line);
+        COLUMNS
+            .iter()
+            .all(|column| names(&cells, column))
+            .then_some(())
+    });
     let Some((grid, header)) = found else {
         let place = Grid::new(&source, ',').place(0);
         let help =
@@ -50,25 +59,17 @@ pub fn shift_factors_from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<(f64, f6
             .help(help)
             .into());
     };
-    let places = places(&grid.header(header)).unwrap_or_default();
-    let end = grid.len();
-    let mut section = Section::new(&grid, header, end, |place| places.contains(&place));
+    let is_known = |place: usize| {
+        let names = grid.header(header);
+        COLUMNS
+            .iter()
+            .any(|column| column.is_named(names.text(place)))
+    };
+    let mut section = Section::new(&grid, header, grid.len(), is_known);
     section.by_instrument = true;
-    let [temperature, factor] = places;
-    let named = columns::recognise(section.header.text(temperature));
-    let above = named.and_then(|named| named.unit);
-    let scale = section.scale((temperature, "temperatures"), above.as_deref(), |unit| {
-        columns::scale(Role::Temperature, unit)
-    })?;
-    let asked = [(temperature, scale), (factor, Scale::ONE)].map(|(place, scale)| {
-        let what = "";
-        Some(Asked { place, scale, what })
-    });
-    let (problems, help) = (
-        Problems::new(),
-        "write it as `-1.5`, or leave the whole row out",
-    );
-    let table = section.read(&asked, Holes::Refused, help, &problems);
+    let help = "write it as `-1.5`, or leave the whole row out";
+    let table = section.table(&COLUMNS, Holes::Refused, help)?;
+    let problems = Problems::new();
     let rows = table.values.chunks_exact(2);
     let pairs: Vec<(f64, f64)> = rows.map(|row| (row[0], row[1])).collect();
     for row in (0..pairs.len()).filter(|row| pairs[*row].0 <= 0.0) {
@@ -82,14 +83,4 @@ pub fn shift_factors_from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<(f64, f6
         report.help("give one row per temperature");
     }
     problems.into_result(Some(pairs))
-}
-
-/// Where temperature and shift factor stand.
-fn places(header: &Line<'_>) -> Option<[usize; 2]> {
-    let is_temperature =
-        |text: &str| columns::recognise(text).is_some_and(|named| named.role == Role::Temperature);
-    let is_factor = |text: &str| NAMES.contains(&text.to_lowercase().as_str());
-    let temperature = header.texts().position(is_temperature)?;
-    let factor = header.texts().position(is_factor)?;
-    Some([temperature, factor])
 }

@@ -116,6 +116,23 @@ fn angular_frequencies_shear_errors_and_sets_are_read() {
 }
 
 #[test]
+fn a_name_with_another_word_or_in_the_other_case_is_another_name() {
+    for cell in [
+        "Set temperature (°C)",
+        "F (N)",
+        "W",
+        "t (s)",
+        "T (mm)",
+        "Static E' (MPa)",
+    ] {
+        assert_eq!(columns::recognise(cell), None, "{cell}");
+    }
+    let named = columns::recognise("Shear storage modulus G' (mPa)").unwrap();
+    assert_eq!(named.kind, Some(ModulusKind::Shear));
+    assert_eq!(named.unit.as_deref(), Some("mPa"));
+}
+
+#[test]
 fn isotherms_are_found_from_scattered_temperatures() {
     let mut rows =
         String::from("frequency_hz,storage_modulus_mpa,loss_modulus_mpa,temperature_c\n");
@@ -184,7 +201,7 @@ const REFUSED: [(&str, &str, &str); 19] = [
     (
         "f [Hz],E' [MPa],E'' [MPa],T\n1,2,3,4\n",
         "dma.csv:1:27",
-        "write its unit, such as [°C]",
+        "write its unit, such as `T [°C]`",
     ),
     (
         "f [Hz],E' [MPa]\n1,2\n",
