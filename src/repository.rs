@@ -101,6 +101,9 @@ fn parts(commands: &str) -> Vec<(String, Part)> {
         "shapes",
         names("indenter", &python_calls::class),
     );
+    let constructors = python_calls::constructors().into_iter();
+    let constructors: Vec<String> = constructors.map(|name| format!("`{name}`")).collect();
+    marked("src/guide/python.md", "forms", constructors.join(", "));
     marked(
         "src/guide/input_files.md",
         "keys",

@@ -17,21 +17,27 @@ the message of the program; what has no result, or a fit to be looked at, warns 
 Numbers are those of the program ``contact-dma``, bit for bit, on any number of threads.
 """
 
+from . import _calls
+from ._calls import *
+from ._contact_dma import BUILD as build
+from ._contact_dma import COMMIT as commit
 from ._contact_dma import VERSION as __version__
-from ._result import ContactDmaWarning, Status, Table
+from ._result import ContactDmaWarning, Figure, Status, Table
 from ._result import Warning as Warning  # Not in __all__: a star would put it in the place of Python's own.
+from ._toml import Quantity
 from .fits import MaterialFit
-from .folders import read
-from .histories import Field, HistoryResult, SurfaceLine, SurfaceProfile, simulate
-from .indenters import Asperities, Cone, Ellipsoid, FlatPunch, HeightMap, Indenter, PowerLaw, Profile, Rough, Sphere
-from .materials import Material, Prony, Quantity, library_materials
-from .measurements import AnalysisResult, IdentifiedMaterial, MeasuredCycle, analyse, identify
-from .sweeps import Cycle, Cycles, Peak, PressureLine, PressureProfile, SweepResult, sweep
+from .folders import read, schema
+from .histories import Field, HistoryResult, SurfaceLine, SurfaceProfile
+from .indenters import Indenter
+from .materials import Material, Prony, library_materials
+from .measurements import AnalysisResult, IdentifiedMaterial, MeasuredCycle, analyse
+from .sweeps import Cycle, Cycles, Peak, PressureLine, PressureProfile, SweepResult
 
 __all__ = [
-    "AnalysisResult", "Asperities", "Cone", "ContactDmaWarning", "Cycle", "Cycles", "Ellipsoid", "Field", "FlatPunch",
-    "HeightMap", "HistoryResult", "IdentifiedMaterial", "Indenter", "Material", "MaterialFit", "MeasuredCycle", "Peak",
-    "PowerLaw", "PressureLine", "PressureProfile", "Profile", "Prony", "Quantity", "Rough", "Sphere", "Status",
-    "SurfaceLine", "SurfaceProfile", "SweepResult", "Table", "__version__", "analyse", "identify", "library_materials",
-    "read", "simulate", "sweep",
+    "AnalysisResult", "ContactDmaWarning", "Cycle", "Cycles", "Field", "Figure", "HistoryResult", "IdentifiedMaterial",
+    "Indenter", "Material", "MaterialFit", "MeasuredCycle", "Peak", "PressureLine", "PressureProfile", "Prony", "Quantity",
+    "Status", "SurfaceLine", "SurfaceProfile", "SweepResult", "Table", "__version__", "analyse", "build", "commit",
+    "library_materials", "read", "schema",
 ]
+# Functions of files, and a class for every shape of an indenter.
+__all__ += _calls.__all__

@@ -1,4 +1,5 @@
-"""Functions whose arguments are keys of the input files: their signatures and what every argument means, from the tables of the program.
+"""Functions and classes whose arguments are keys of the input files: their signatures and what every argument means, from the tables of the
+program.
 
 Type checkers read ``_calls.pyi``, which ``contact-dma renew`` writes from the same tables."""
 
@@ -8,6 +9,7 @@ import re
 
 from . import _contact_dma as _core
 from . import _toml
+from .indenters import Indenter
 
 _BODIES = {}
 KEYS = {}
@@ -43,6 +45,7 @@ def _made(name, call, do, first=None):
     parameters = [inspect.Parameter(first, by_place)] if first else []
     signature = inspect.Signature([*parameters, *map(_parameter, arguments, kinds)])
     keys = KEYS[name] = {argument["name"]: argument["key"] for argument in arguments if argument["key"]}
+    rows = {argument["name"]: argument["rows"] for argument in arguments if "rows" in argument}
     lists = {argument["name"] for argument in arguments if re.search("ArrayLike|Sequence|Mapping|BulkModulus", argument["annotation"])}
     # Keys that must be in a file, and have a default in Python alone.
     needed = {argument["name"]: "longitudinal" for argument in arguments if argument.get("default") == "longitudinal"}
@@ -55,6 +58,7 @@ def _made(name, call, do, first=None):
                 axis = "" if first else f"; of a sweep they are an axis: axes={{\"{keys[name]}\": [...]}}"
                 raise ValueError(f"{name} takes one value, and has several{axis}")
         by_key = {keys[name]: value for name, value in chosen.items() if name in keys}
+        by_key |= {keys[name]: _toml.rows(name, chosen[name], rows[name]) for name in rows.keys() & chosen.keys()}
         others = {name: value for name, value in bound.arguments.items() if name not in keys}
         return do(by_key, **others)
 
@@ -76,9 +80,16 @@ def _form(name, call):
 
 def _shape(name, call):
     word = re.sub("(?<!^)(?=[A-Z])", "-", name).lower()
-    made = _made("__init__", call, lambda keys, self, **data: self._made_of(word, keys, **data), "self")
+    made = _made("__init__", call, lambda keys, self, **data: self._make(word, keys, **data), "self")
     _say(made, "{arguments}", call)
-    return type(name, (), {"__slots__": (), "__init__": made, "__doc__": call["about"]})
+    settings = {argument["name"]: _setting(argument) for argument in call["arguments"] if argument["key"]}
+    content = {"__slots__": (), "__module__": __package__, "__init__": made, "__doc__": call["about"]}
+    return type(name, (Indenter,), content | settings)
+
+
+def _setting(argument):
+    name, default = argument["name"], argument.get("default")
+    return property(lambda self: self._core.settings().get(name, default), doc=argument["means"])
 
 
 def _all(of, make):
@@ -87,4 +98,6 @@ def _all(of, make):
 
 _CALLS = json.loads(_core.calls())
 MaterialForms = type("MaterialForms", (), {"__slots__": ()} | _all("Material", _form))
-globals().update(_all("Module", _function) | _all("Indenter", _shape))
+_EXPORTED = _all("Module", _function) | _all("Indenter", _shape)
+__all__ = list(_EXPORTED)
+globals().update(_EXPORTED)

@@ -6,10 +6,10 @@ from typing import Any, Literal, TypeVar
 from numpy.typing import ArrayLike, NDArray
 
 from ._result import Progress
-from ._toml import TableLike
+from ._toml import Quantity, TableLike
 from .histories import HistoryResult
 from .indenters import Indenter
-from .materials import BulkModulus, Material, Quantity
+from .materials import BulkModulus, Material
 from .measurements import IdentifiedMaterial
 from .sweeps import SweepResult
 
@@ -205,11 +205,25 @@ def identify(
 
 class MaterialForms:
     @classmethod
+    def library(
+        cls,
+        name: str,
+        *,
+        poisson_ratio: float | None = None,
+        temperature: Quantity | None = None,
+    ) -> Material:
+        """A material that comes with the program; `contact-dma material list` lists them.
+        Args:
+            name: A material that comes with the program; `contact-dma material list` lists them. A string.
+            poisson_ratio: Poisson ratio in place of that of the library. A number above -1 and at most 0.5.
+            temperature: Temperature of the body, for a material that is known at several temperatures. Left out: the reference temperature of the dynamic data, or the temperature of the only isotherm or of the library's data. A temperature above zero.
+        """
+    @classmethod
     def elastic(
         cls,
         modulus: Quantity,
-        *,
         poisson_ratio: float,
+        *,
         name: str | None = None,
     ) -> Material:
         """An elastic body, without losses.
@@ -222,7 +236,7 @@ class MaterialForms:
     def relaxation(
         cls,
         equilibrium: Quantity,
-        branches: Sequence[tuple[Quantity, Quantity]],
+        branches: Sequence[tuple[Quantity, Quantity] | Mapping[str, Any]],
         *,
         modulus: Literal["longitudinal", "shear"] = "longitudinal",
         replicas: Sequence[Mapping[str, Any]] | None = None,
@@ -248,7 +262,7 @@ class MaterialForms:
     def creep(
         cls,
         instantaneous: Quantity,
-        branches: Sequence[tuple[Quantity, Quantity]],
+        branches: Sequence[tuple[Quantity, Quantity] | Mapping[str, Any]],
         *,
         compliance: Literal["longitudinal", "shear"] = "longitudinal",
         viscosity: Quantity | None = None,
@@ -363,32 +377,6 @@ class MaterialForms:
             bulk_modulus: Bulk modulus (Pa) in place of the Poisson ratio: constant in time, or a pair of that at rest and a list of branches, pairs of modulus and time.
         """
     @classmethod
-    def table(
-        cls,
-        time: ArrayLike,
-        values: ArrayLike,
-        *,
-        quantity: Literal["creep", "relaxation"],
-        modulus: Literal["longitudinal", "shear"] = "longitudinal",
-        evaluation: Literal["fit", "direct"] = "fit",
-        flow: bool | None = None,
-        name: str | None = None,
-        poisson_ratio: float | None = None,
-        bulk_modulus: BulkModulus | None = None,
-    ) -> Material:
-        """Measured creep compliance or relaxation modulus.
-        Args:
-            time: Times (s), ascending.
-            values: Compliances (1/Pa) or moduli (Pa) at these times.
-            quantity: What the data are of. "creep" or "relaxation".
-            modulus: Whether they are uniaxial or in shear. "longitudinal" or "shear".
-            evaluation: `fit`: a series is fitted and its misfit reported with the results; `direct` (single histories only): the samples are used directly. "fit" or "direct".
-            flow: Whether to fit a fluid; left out: as the data indicate, a solid if they do not decide. `true` or `false`.
-            name: Name of the material in tables and figures. A string.
-            poisson_ratio: Poisson ratio, constant in time. A number above -1 and at most 0.5.
-            bulk_modulus: Bulk modulus (Pa) in place of the Poisson ratio: constant in time, or a pair of that at rest and a list of branches, pairs of modulus and time.
-        """
-    @classmethod
     def from_dynamic(
         cls,
         file: str | PathLike[str] | Sequence[str | PathLike[str]] | TableLike | None = None,
@@ -432,8 +420,34 @@ class MaterialForms:
             poisson_ratio: Poisson ratio, constant in time. A number above -1 and at most 0.5.
             temperature_of_sweep: Temperature of the body, for a material that is known at several temperatures. Left out: the reference temperature of the dynamic data, or the temperature of the only isotherm or of the library's data. A temperature above zero.
         """
+    @classmethod
+    def table(
+        cls,
+        time: ArrayLike,
+        values: ArrayLike,
+        *,
+        quantity: Literal["creep", "relaxation"],
+        modulus: Literal["longitudinal", "shear"] = "longitudinal",
+        evaluation: Literal["fit", "direct"] = "fit",
+        flow: bool | None = None,
+        name: str | None = None,
+        poisson_ratio: float | None = None,
+        bulk_modulus: BulkModulus | None = None,
+    ) -> Material:
+        """Measured creep compliance or relaxation modulus.
+        Args:
+            time: Times (s), ascending.
+            values: Compliances (1/Pa) or moduli (Pa) at these times.
+            quantity: What the data are of. "creep" or "relaxation".
+            modulus: Whether they are uniaxial or in shear. "longitudinal" or "shear".
+            evaluation: `fit`: a series is fitted and its misfit reported with the results; `direct` (single histories only): the samples are used directly. "fit" or "direct".
+            flow: Whether to fit a fluid; left out: as the data indicate, a solid if they do not decide. `true` or `false`.
+            name: Name of the material in tables and figures. A string.
+            poisson_ratio: Poisson ratio, constant in time. A number above -1 and at most 0.5.
+            bulk_modulus: Bulk modulus (Pa) in place of the Poisson ratio: constant in time, or a pair of that at rest and a list of branches, pairs of modulus and time.
+        """
 
-class Sphere:
+class Sphere(Indenter):
     def __init__(
         self,
         radius: Quantity,
@@ -445,8 +459,12 @@ class Sphere:
             radius: Radius. A length above zero.
             offset: Moves the indenter along x and y. An array of two, each a length.
         """
+    @property
+    def radius(self) -> float: ...
+    @property
+    def offset(self) -> tuple[float, ...] | None: ...
 
-class Cone:
+class Cone(Indenter):
     def __init__(
         self,
         half_angle: Quantity,
@@ -458,8 +476,12 @@ class Cone:
             half_angle: Angle between axis and flank; 90 deg is a plane. An angle above zero.
             offset: Moves the indenter along x and y. An array of two, each a length.
         """
+    @property
+    def half_angle(self) -> float: ...
+    @property
+    def offset(self) -> tuple[float, ...] | None: ...
 
-class FlatPunch:
+class FlatPunch(Indenter):
     def __init__(
         self,
         radius: Quantity,
@@ -471,8 +493,12 @@ class FlatPunch:
             radius: Radius. A length above zero.
             offset: Moves the indenter along x and y. An array of two, each a length.
         """
+    @property
+    def radius(self) -> float: ...
+    @property
+    def offset(self) -> tuple[float, ...] | None: ...
 
-class Ellipsoid:
+class Ellipsoid(Indenter):
     def __init__(
         self,
         radius_x: Quantity,
@@ -486,14 +512,20 @@ class Ellipsoid:
             radius_y: Principal radius of curvature along y. A length above zero.
             offset: Moves the indenter along x and y. An array of two, each a length.
         """
+    @property
+    def radius_x(self) -> float: ...
+    @property
+    def radius_y(self) -> float: ...
+    @property
+    def offset(self) -> tuple[float, ...] | None: ...
 
-class PowerLaw:
+class PowerLaw(Indenter):
     def __init__(
         self,
         exponent: float,
-        *,
         radius: Quantity,
         height: Quantity,
+        *,
         offset: ArrayLike | None = None,
     ) -> None:
         """gap = height (r / radius)^exponent.
@@ -503,23 +535,37 @@ class PowerLaw:
             height: Gap at `radius`. A length above zero.
             offset: Moves the indenter along x and y. An array of two, each a length.
         """
+    @property
+    def exponent(self) -> float: ...
+    @property
+    def radius(self) -> float: ...
+    @property
+    def height(self) -> float: ...
+    @property
+    def offset(self) -> tuple[float, ...] | None: ...
 
-class Profile:
+class Profile(Indenter):
     def __init__(
         self,
-        file: str | PathLike[str],
+        file: str | PathLike[str] | TableLike | ArrayLike,
+        gap: ArrayLike | None = None,
         *,
         sha256: str | None = None,
         offset: ArrayLike | None = None,
     ) -> None:
         """A profile of revolution: columns `r_m`, `gap_m`, from the axis outwards.
         Args:
-            file: A file with these columns.
+            file: A file with these columns, or a table of them, such as a data frame; or radii (m) from the axis outwards.
+            gap: Gaps (m) at these radii, where no file is given.
             sha256: SHA-256 of the data file, in hexadecimal, to make sure that it has not changed. A string.
             offset: Moves the indenter along x and y. An array of two, each a length.
         """
+    @property
+    def sha256(self) -> str | None: ...
+    @property
+    def offset(self) -> tuple[float, ...] | None: ...
 
-class HeightMap:
+class HeightMap(Indenter):
     def __init__(
         self,
         heights: ArrayLike | PathLike[str],
@@ -534,7 +580,7 @@ class HeightMap:
     ) -> None:
         """A measured surface: a matrix (CSV or `.npy`), or columns `x_m`, `y_m`, `z_m`.
         Args:
-            heights: An array of shape (cells along y, cells along x), first row at the smallest y, which is copied once, into the memory of the library; or a file (CSV, ``.npy``).
+            heights: An array of shape (cells along y, cells along x), first row at the smallest y; or a file (CSV, ``.npy``).
             spacing: Distance between points of a matrix, or one for x and one for y; not for files with columns `x_m`, `y_m`, `z_m`. An array of two, each a length above zero.
             sha256: SHA-256 of the data file, in hexadecimal, to make sure that it has not changed. A string.
             quantity: Whether values are heights, positive towards the half-space, or gaps. "height" or "gap".
@@ -543,8 +589,39 @@ class HeightMap:
             edge: What lies outside the map: unknown, so the contact must stay within; nothing (`rim`); or periodic repetitions of the map (`periodic`), under a prescribed load. "unknown", "rim" or "periodic".
             offset: Moves the indenter along x and y. An array of two, each a length.
         """
+    @property
+    def spacing(self) -> tuple[float, ...] | None: ...
+    @property
+    def sha256(self) -> str | None: ...
+    @property
+    def quantity(self) -> str: ...
+    @property
+    def height_unit(self) -> str: ...
+    @property
+    def level(self) -> str: ...
+    @property
+    def edge(self) -> str: ...
+    @property
+    def offset(self) -> tuple[float, ...] | None: ...
 
-class Rough:
+class Asperities(Indenter):
+    def __init__(
+        self,
+        asperities: Sequence[Sequence[Quantity] | Mapping[str, Any]],
+        *,
+        offset: ArrayLike | None = None,
+    ) -> None:
+        """Paraboloids side by side.
+        Args:
+            asperities: For each `(x, y, radius)` or `(x, y, radius, height)` (m), or a table of its keys `center`, `radius`, `height`.
+            offset: Moves the indenter along x and y. An array of two, each a length.
+        """
+    @property
+    def asperities(self) -> tuple[dict[str, Any], ...]: ...
+    @property
+    def offset(self) -> tuple[float, ...] | None: ...
+
+class Rough(Indenter):
     def __init__(
         self,
         cells: int,
@@ -572,3 +649,25 @@ class Rough:
             sphere_radius: Radius of a sphere under the roughness; left out: the surface is nominally flat. A length above zero.
             offset: Moves the indenter along x and y. An array of two, each a length.
         """
+    @property
+    def cells(self) -> int: ...
+    @property
+    def spacing(self) -> float: ...
+    @property
+    def hurst_exponent(self) -> float: ...
+    @property
+    def rms_height(self) -> float: ...
+    @property
+    def cut_off_wavelength(self) -> float: ...
+    @property
+    def seed(self) -> int: ...
+    @property
+    def edge(self) -> str: ...
+    @property
+    def roll_off_wavelength(self) -> float | None: ...
+    @property
+    def sphere_radius(self) -> float | None: ...
+    @property
+    def offset(self) -> tuple[float, ...] | None: ...
+
+__all__ = ["sweep", "simulate", "identify", "Sphere", "Cone", "FlatPunch", "Ellipsoid", "PowerLaw", "Profile", "HeightMap", "Asperities", "Rough"]

@@ -1,14 +1,18 @@
 # Written by python/stubs.sh from the compiled module.
-from numpy import float64
+from numpy import complex128, float64
 from numpy.typing import ArrayLike, NDArray
+from typing import overload
+from ._toml import Quantity
 from .materials import ModulusKind
 from _typeshed import SupportsGetItem
 from os import PathLike
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
 from typing_extensions import disjoint_base
 
-__all__ = ["VERSION", "Body", "Cycle", "Field", "History", "Loops", "MeasuredCycle", "Peak", "PressureLine", "PressureProfile", "Shape", "Status", "SurfaceLine", "SurfaceProfile", "Sweep", "Warning", "calls", "identify_material", "library_materials", "placed", "quantity", "write_identification"]
+__all__ = ["BUILD", "COMMIT", "VERSION", "Body", "Cycle", "Field", "Figure", "History", "Loops", "MeasuredCycle", "Peak", "PressureLine", "PressureProfile", "Shape", "Status", "SurfaceLine", "SurfaceProfile", "Sweep", "Warning", "calls", "identify_material", "kept_figures", "library_materials", "placed", "quantity", "schema", "write_identification"]
 
+BUILD: Final[str]
+COMMIT: Final[str | None]
 VERSION: Final[str]
 
 @disjoint_base
@@ -16,7 +20,7 @@ class Body:
     """
     A material that was read from its block of a sweep file.
     """
-    def __new__(cls, /, name: str, text: str, tables: SupportsGetItem[int, tuple[str, str]] = ...) -> Body: ...
+    def __new__(cls, /, name: str, text: str, tables: SupportsGetItem[int, tuple[str, SupportsGetItem[int, SupportsIndex]]] = ...) -> Body: ...
     def _fitted(self, /) -> tuple[list[str], list[str], list[str], list[tuple[str, bytes]]] | None:
         """
         How the series was fitted; `None` of a material that was not fitted to data.
@@ -32,7 +36,10 @@ class Body:
         """
         Bulk modulus (Pa), where it is constant in time in place of the Poisson ratio.
         """
-    def complex_modulus(self, /, angular_frequency: "ArrayLike", *, modulus: "ModulusKind" = "longitudinal") -> "Any":
+    @overload
+    def complex_modulus(self, /, angular_frequency: Quantity, *, modulus: "ModulusKind" = "longitudinal") -> complex: ...  # type: ignore[overload-overlap]
+    @overload
+    def complex_modulus(self, /, angular_frequency: ArrayLike, *, modulus: "ModulusKind" = "longitudinal") -> NDArray[complex128]:
         """
         Complex modulus E' + i E'' (Pa), or G' + i G''.
 
@@ -43,7 +50,10 @@ class Body:
         Returns:
             complex numbers of the same shape.
         """
-    def creep_compliance(self, /, time: "ArrayLike", *, modulus: "ModulusKind" = "longitudinal") -> "Any":
+    @overload
+    def creep_compliance(self, /, time: Quantity, *, modulus: "ModulusKind" = "longitudinal") -> float: ...  # type: ignore[overload-overlap]
+    @overload
+    def creep_compliance(self, /, time: ArrayLike, *, modulus: "ModulusKind" = "longitudinal") -> NDArray[float64]:
         """
         Creep compliance D(t) (1/Pa), or J(t).
 
@@ -53,6 +63,13 @@ class Body:
 
         Returns:
             numbers of the same shape.
+        """
+    def export(self, /, program: str) -> str:
+        """
+        The text that gives the material to a finite element program.
+
+        Args:
+            program: ``"abaqus"``, ``"ansys"``, ``"ls-dyna"``, ``"comsol"``, or ``"csv"``.
         """
     @property
     def name(self, /) -> str | None:
@@ -64,7 +81,10 @@ class Body:
         """
         Poisson ratio, where it is constant in time.
         """
-    def relaxation_modulus(self, /, time: "ArrayLike", *, modulus: "ModulusKind" = "longitudinal") -> "Any":
+    @overload
+    def relaxation_modulus(self, /, time: Quantity, *, modulus: "ModulusKind" = "longitudinal") -> float: ...  # type: ignore[overload-overlap]
+    @overload
+    def relaxation_modulus(self, /, time: ArrayLike, *, modulus: "ModulusKind" = "longitudinal") -> NDArray[float64]:
         """
         Relaxation modulus E(t) (Pa), or G(t).
 
@@ -193,6 +213,26 @@ class Field:
         s.
         """
 
+@final
+class Figure:
+    """
+    A figure as the program draws it; a notebook shows it.
+    """
+    def __repr__(self, /) -> str: ...
+    def _repr_html_(self, /) -> str | None: ...
+    @property
+    def name(self, /) -> str:
+        """
+        The name of its files, such as ``"energy-loss"``.
+        """
+    def save(self, /, file: str | PathLike[str]) -> None:
+        """
+        Writes it as its ending says: ``.svg``, ``.pdf`` or ``.png``.
+
+        Args:
+            file: is replaced where it is there.
+        """
+
 @disjoint_base
 class History:
     """
@@ -202,10 +242,8 @@ class History:
     def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]": ...
     def _all_columns(self, /) -> list[tuple[str, Any]]: ...
     def _cycles(self, /) -> list[tuple[str, Any]]: ...
-    def _picture(self, /) -> str | None:
-        """
-        A picture of load, approach and contact radius, as HTML.
-        """
+    def _figures(self, /) -> list[Figure]: ...
+    def _summary(self, /) -> bytes: ...
     @property
     def errors_missing(self, /) -> str | None:
         """
@@ -262,10 +300,7 @@ class Loops:
         """
     def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]": ...
     def _all_columns(self, /) -> list[tuple[str, Any]]: ...
-    def _picture(self, /) -> str | None:
-        """
-        A picture of the first figure, the loops, as HTML.
-        """
+    def _figures(self, /) -> list[Figure]: ...
     def _summary(self, /) -> bytes: ...
     @property
     def cycles(self, /) -> tuple[MeasuredCycle, ...]:
@@ -468,15 +503,11 @@ class PressureProfile:
 @final
 class Shape:
     """
-    An indenter that was read from its block of a sweep file, or a height map of an array.
+    An indenter that was read from its block of a sweep file.
     """
-    def __new__(cls, /, name: str, text: str) -> Shape:
+    def __new__(cls, /, name: str, text: str, tables: SupportsGetItem[int, tuple[str, SupportsGetItem[int, SupportsIndex]]]) -> Shape:
         """
-        The indenter of a block.
-        """
-    def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]":
-        """
-        A map of an array by its gaps; other indenters are pickled by their text.
+        The indenter of a block, which may name these tables as files.
         """
     def gap(self, /, x: NDArray[float64], y: NDArray[float64]) -> NDArray[float64]:
         """
@@ -484,20 +515,15 @@ class Shape:
         """
     def gaps(self, /) -> NDArray[float64]:
         """
-        Gap (m) at every point of a map of an array.
+        Gap (m) at the points of its grid, a row for each y.
         """
     def key(self, /) -> str:
         """
-        Shape and settings, by which indenters of text are compared.
+        Shape and settings, by which indenters are compared; a file counts by its content.
         """
-    def map_keys(self, /) -> str:
+    def settings(self, /) -> "dict[str, Any]":
         """
-        The block, without file, that a map of an array has together with its gaps.
-        """
-    @staticmethod
-    def of_heights(name: str, text: str, heights: NDArray[float64]) -> Shape:
-        """
-        A map of heights, one row for each y, with the other keys of its block.
+        Its settings by their keys, numbers in SI units.
         """
 
 @final
@@ -625,10 +651,7 @@ class Sweep:
     @property
     def _cases(self, /) -> int: ...
     def _cycle(self, /, index: SupportsIndex) -> Cycle: ...
-    def _picture(self, /) -> str | None:
-        """
-        A picture of the losses over frequency, as HTML; None where no case has a result.
-        """
+    def _figures(self, /) -> list[Figure]: ...
     def _summary(self, /) -> bytes: ...
     @property
     def notes(self, /) -> tuple[str, ...]:
@@ -713,6 +736,11 @@ def identify_material(source: "object", threads: SupportsIndex | None) -> list[t
     A material from measured cycles: every file of its folder.
     """
 
+def kept_figures(file: bytes) -> list[Figure]:
+    """
+    The figures that a folder of the program keeps in its ``figures.json``.
+    """
+
 def library_materials() -> list[tuple[str, str, str]]:
     """
     Names and titles of the materials of the library.
@@ -727,6 +755,11 @@ def placed(text: str, block: str, place: str, name: str | None) -> str:
 def quantity(text: str, si_unit: str) -> float:
     """
     A number with its unit, in the SI unit of the quantity that is expected. Frequencies in Hz and in rad/s are read as one another.
+    """
+
+def schema(kind: str) -> str:
+    """
+    The JSON Schema of a kind of input files, as text.
     """
 
 def write_identification(folder: str | PathLike[str], files: SupportsGetItem[int, tuple[str, SupportsGetItem[int, SupportsIndex]]], force: bool) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import html
 import io
+import json
 import math
 import os
 import sys
@@ -18,8 +19,11 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from ._contact_dma import Figure as Figure
 from ._contact_dma import Status as Status
 from ._contact_dma import Warning as Warning
+
+from ._toml import unit_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -120,6 +124,22 @@ class Table(Mapping[str, npt.NDArray[Any]]):
 
         return pd.DataFrame(dict(self._columns))
 
+    def _axes(self) -> list[str]:
+        """The columns whose values tell rows from one another."""
+        return []
+
+    def to_xarray(self) -> Any:
+        """The columns as a dataset of xarray over what varies, or over the rows, with their SI units; needs xarray and pandas.
+
+        Returns:
+            a ``xarray.Dataset``, NaN where a combination was not computed.
+        """
+        axes, frame = self._axes(), self.to_pandas()
+        dataset = (frame.set_index(axes) if axes else frame).to_xarray()
+        for name in dataset.variables:
+            dataset[name].attrs["units"] = unit_of(str(name))
+        return dataset
+
 
 class Columns(Table):
     """Columns that come with a result."""
@@ -168,7 +188,16 @@ class Result(Table):
     def _all_columns(self) -> list[tuple[str, Any]]: ...
 
     @abstractmethod
-    def _picture(self) -> str | None: ...
+    def _figures(self) -> list[Figure]: ...
+
+    @abstractmethod
+    def _summary(self) -> bytes: ...
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """What the program writes to ``summary.json``."""
+        summary: dict[str, Any] = json.loads(self._summary())
+        return summary
 
     @property
     @abstractmethod
@@ -181,6 +210,19 @@ class Result(Table):
 
     def __init__(self, *_: Any) -> None:
         self._columns = arrays(self._all_columns())
+
+    @property
+    def figures(self) -> dict[str, Figure]:
+        """The figures that the program draws of it, by name; a notebook shows them, and ``figure.save("loss.pdf")`` writes one.
+
+        Example:
+            >>> import contact_dma as cd
+            >>> result = cd.sweep(cd.Material.library("pmma"), cd.Sphere("10 mm"), mean=10.0, amplitude=5.0,
+            ...                   angular_frequency=[1e-3, 1e-2, 1e-1], springs=32, steps=32)
+            >>> result.figures["energy-loss"]
+            <Figure energy-loss>
+        """
+        return {figure.name: figure for figure in self._figures()}
 
     def raise_for_status(self) -> None:
         """Raises RuntimeError where something has no result, with the reasons of the first."""
@@ -198,7 +240,7 @@ class Result(Table):
         return []
 
     def _repr_html_(self) -> str:
-        picture = self._picture() or "<p>no case has a result</p>"
+        picture = next((figure._repr_html_() for figure in self._figures()), None) or "<p>no case has a result</p>"
         remarks = "".join(f"<li>{html.escape(remark)}</li>" for remark in self._remarks())
         caption = f"<figcaption>{html.escape(self.title)}</figcaption>"
         # Pictures are drawn on white.

@@ -23,7 +23,7 @@ class Source:
     name: str
     text: str | None
     set: Sequence[str] = ()
-    tables: Sequence[tuple[str, str]] = ()
+    tables: Sequence[tuple[str, bytes]] = ()
     material: _core.Body | None = None
     indenter: _core.Shape | None = None
 
@@ -103,7 +103,7 @@ def source_of_values(
     indenter: Indenter | Mapping[str, Indenter],
     *,
     axes: Any = None,
-    tables: Sequence[tuple[str, str]] = (),
+    tables: Sequence[tuple[str, bytes]] = (),
     indenter_material: Material | str | None = None,
     layer: Mapping[str, Any] | None = None,
     adhesion: Any = None,
@@ -116,7 +116,12 @@ def source_of_values(
     tables_of_keys = _toml.tables({**keys, "title": keys.get("title") or _title(call, material, indenter)}, *HEADERS[call])
     if call == "sweep":
         tables_of_keys["sweep"].update(axes)
-    text = _toml.document(tables_of_keys) + surroundings(layer, adhesion)
+    if layer is not None and not isinstance(layer, Mapping):
+        raise ValueError(f"layer is {layer!r}: write its keys, such as {{\"thickness\": \"0.5 mm\"}}")
+    # An empty table is not the half-space, but one whose keys are missing.
+    work = adhesion if adhesion is None or isinstance(adhesion, Mapping) else {"work": adhesion}
+    tables_of_keys |= {name: dict(given) for name, given in (("layer", layer), ("adhesion", work)) if given is not None}
+    text = _toml.document(tables_of_keys)
     # A block that an axis varies is read for every value of it.
     varies = {str(axis).split(".")[0] for axis in axes}
     body, shape = None, None
@@ -131,15 +136,15 @@ def source_of_values(
         body = material
     if isinstance(indenter, Mapping):
         for name, each in indenter.items():
-            if not isinstance(each, Indenter) or each._text is None:
-                raise ValueError(f"{name!r} is {each!r}: write an Indenter, such as Sphere(0.01); a map from a file")
-            text += _core.placed(indenter_block(each, indenter_material, True), "indenter", "sweep.indenter", str(name)) + "\n"
+            if not isinstance(each, Indenter):
+                raise ValueError(f"{name!r} is {each!r}: write an Indenter, such as Sphere(0.01)")
+            text += _core.placed(indenter_block(each, indenter_material), "indenter", "sweep.indenter", str(name)) + "\n"
+    elif "indenter" in varies or indenter_material is not None:
+        text += indenter_block(indenter, indenter_material)
     else:
-        if "indenter" in varies and indenter._text is None:
-            raise ValueError("a map of an array has no keys to vary: write the array to a file, or make one sweep for each map")
-        block = indenter_block(indenter, indenter_material, "indenter" in varies)
-        text, shape = text + block, None if "[indenter]" in block else indenter._core
-    return Source(f"{call}(...)", text, (), tables, body, shape)
+        shape = indenter._core
+    held = [table for each in (indenter.values() if isinstance(indenter, Mapping) else [indenter]) for table in each._tables]
+    return Source(f"{call}(...)", text, (), list(dict([*tables, *held]).items()), body, shape)
 
 
 def _title(call: str, material: Any, indenter: Any) -> str:
@@ -157,29 +162,11 @@ def together(names: Mapping[str, Any]) -> str:
     return f"{first}, {second}, ..., {last} ({len(names)})"
 
 
-def surroundings(layer: Any, adhesion: Any) -> str:
-    """The text of a layer and of adhesion."""
-    if layer is not None and not isinstance(layer, Mapping):
-        raise ValueError(f"layer is {layer!r}: write its keys, such as {{\"thickness\": \"0.5 mm\"}}")
-    # An empty table is not the half-space, but one whose keys are missing.
-    text = _toml.table("layer", layer, even_empty=True) if layer is not None else ""
-    if adhesion is not None:
-        text += _toml.table("adhesion", adhesion if isinstance(adhesion, Mapping) else {"work": adhesion}, even_empty=True)
-    return text
-
-
-def indenter_block(indenter: Indenter, made_of: Material | str | None, by_text: bool) -> str:
-    """The text of the indenter, where it has to be text, and of what it is made of."""
-    text = ""
-    if made_of is not None and indenter._text is None:
-        raise ValueError("an indenter of an array is rigid: write the array to a file and give HeightMap its path")
-    if by_text or made_of is not None:
-        text += indenter._text or ""
+def indenter_block(indenter: Indenter, made_of: Material | str | None) -> str:
+    """The text of the indenter, and of what it is made of."""
     if isinstance(made_of, Material):
-        text += _core.placed(made_of._source, "material", "indenter.material", None)
-    elif made_of is not None:
-        text += _toml.table("indenter.material", {"library": made_of})
-    return text
+        return indenter._text + _core.placed(made_of._source, "material", "indenter.material", None)
+    return indenter._text + ("" if made_of is None else _toml.document({"indenter.material": {"library": made_of}}))
 
 
 THREADS = ("CONTACT_DMA_THREADS", "RAYON_NUM_THREADS", "OMP_NUM_THREADS")

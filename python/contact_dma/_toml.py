@@ -5,13 +5,18 @@ from __future__ import annotations
 import errno
 import json
 import os
-from collections.abc import Iterable, Mapping
-from typing import Any, Protocol, TypeGuard
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import islice
+from typing import Any, Protocol, TypeAlias, TypeGuard, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _contact_dma as _core
+
+
+Quantity: TypeAlias = Union[float, str]
+"""A number in SI units, or a string with a unit: ``0.01`` or ``"10 mm"``."""
 
 
 class TableLike(Protocol):
@@ -49,6 +54,25 @@ def _magnitude_and_unit(given: Any) -> tuple[Any, str] | None:
     if is_hertz and powers == [("s", -1.0)]:
         return magnitude, "Hz"
     return magnitude, " ".join(name if power == 1 else f"{name}^{power:g}" for name, power in powers)
+
+
+def rows(name: str, given: Any, keys: Sequence[tuple[str, int, bool]]) -> list[Any]:
+    """Rows as tables of these keys, of which each has so many values and may be left out at the end; tables as they are."""
+    labels = [f"{key}_{axis}" if count > 1 else key for key, count, _ in keys for axis in "xyz"[:count]]
+    least = sum(count for _, count, needed in keys if needed)
+    form = f"write a list of rows such as ({', '.join(labels)})"
+    if isinstance(given, (str, Mapping)) or not hasattr(given, "__iter__"):
+        raise ValueError(f"{name} is {given!r}: {form}")
+    made: list[Any] = []
+    for row in given:
+        if isinstance(row, Mapping):
+            made.append(row)
+            continue
+        if isinstance(row, str) or not hasattr(row, "__len__") or not least <= len(row) <= len(labels):
+            raise ValueError(f"{name} has the row {row!r}: {form}")
+        values = iter(row)
+        made.append({key: next(values, None) if count == 1 else list(islice(values, count)) for key, count, _ in keys})
+    return made
 
 
 def has_unit(given: Any) -> bool:
@@ -145,17 +169,13 @@ def key(name: str) -> str:
     return name if bare.isascii() and bare.isalnum() else value(name)
 
 
-def table(header: str, entries: Mapping[str, Any], *, even_empty: bool = False) -> str:
-    """A table of a file; entries that are None are left out, and a table without entries is none unless `even_empty`."""
-    lines = [f"{key(name)} = {_named(name, item)}\n" for name, item in entries.items() if item is not None]
-    return f"[{header}]\n" + "".join(lines) + "\n" if lines or even_empty else ""
-
-
 def document(tables: Mapping[str, Mapping[str, Any]]) -> str:
-    """A file of these tables, "" for what stands before all; those that have no keys stay."""
-    depths = sorted(tables, key=lambda header: header.count("."))
-    lines = [f"{key(name)} = {_named(name, item)}\n\n" for name, item in tables.get("", {}).items()]
-    return "".join(lines + [table(header, tables[header], even_empty=True) for header in depths if header])
+    """A file of these tables, "" for what stands before all, without entries that are None; a table without entries stays."""
+    text = ""
+    for header in sorted(tables, key=lambda header: (header != "", header.count("."))):
+        lines = (f"{key(name)} = {_named(name, item)}\n" for name, item in tables[header].items() if item is not None)
+        text += (f"[{header}]\n" if header else "") + "".join(lines) + "\n"
+    return text
 
 
 def tables(keys: Mapping[str, Any], *headers: str) -> dict[str, dict[str, Any]]:

@@ -8,7 +8,6 @@ from typing import Any
 
 from . import _calls
 from . import _contact_dma as _core
-from ._calls import simulate as simulate
 from ._contact_dma import Field as Field
 from ._contact_dma import SurfaceLine as SurfaceLine
 from ._contact_dma import SurfaceProfile as SurfaceProfile
@@ -42,6 +41,9 @@ class HistoryResult(_core.History, Result):
             (2,)
         """
         return Columns(arrays(self._cycles()))
+
+    def _axes(self) -> list[str]:
+        return ["time_s"]
 
     def _failures(self) -> str | None:
         return None if self.failure is None else f"the history ended before its time: {self.failure}"

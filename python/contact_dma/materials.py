@@ -4,20 +4,15 @@ from __future__ import annotations
 
 import html
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, Literal, NamedTuple, TypeAlias, Union
-
-import numpy as np
-import numpy.typing as npt
 
 from . import _contact_dma as _core
 from . import _toml
 from ._calls import MaterialForms
 from ._result import Floats, warn
+from ._toml import Quantity
 from .fits import POOR_FIT, MaterialFit, dynamic_columns, table_text, warn_of_celsius, warn_of_unread
-
-Quantity: TypeAlias = Union[float, str]
-"""A number in SI units, or a string with a unit: ``0.01`` or ``"10 mm"``."""
 
 ModulusKind: TypeAlias = Union[Literal["longitudinal"], Literal["shear"]]
 """Whether a modulus is Young's (E) or the shear modulus (G)."""
@@ -32,16 +27,7 @@ def _bulk(given: BulkModulus | None) -> Quantity | dict[str, object] | None:
     if len(given) != 2:
         raise ValueError(f"bulk_modulus is {given!r}: give a modulus, or a pair of that at rest and a list of branches")
     equilibrium, branches = given
-    return {"equilibrium": equilibrium, "branches": [{"modulus": m, "time": t} for m, t in _pairs(branches, "modulus")]}
-
-
-def _pairs(branches: Any, what: str) -> list[tuple[Any, Any]]:
-    """Branches as pairs of modulus or compliance, and time."""
-    if isinstance(branches, Mapping) or not isinstance(branches, (Sequence, np.ndarray)) or isinstance(branches, str):
-        branches = [None]
-    if not all(isinstance(pair, (Sequence, np.ndarray)) and not isinstance(pair, str) and len(pair) == 2 for pair in branches):
-        raise ValueError(f"branches are pairs of {what} and time: write a list such as [(8e6, 1e-3), (5e6, 0.1)]")
-    return [(a, b) for a, b in branches]
+    return {"equilibrium": equilibrium, "branches": _toml.rows("bulk_modulus", branches, [("modulus", 1, True), ("time", 1, True)])}
 
 
 class Prony(NamedTuple):
@@ -73,6 +59,8 @@ class Material(MaterialForms, _core.Body):
         >>> e, d = pmma.relaxation_modulus([0.0, 1000.0]), pmma.creep_compliance([0.0, 1000.0])
         >>> bool(e[1] < e[0]), bool(d[1] > d[0])
         (True, True)
+        >>> cd.Material.library("pvb", temperature="30 °C").temperature  # cd.library_materials() lists all
+        303.15
         >>> rubber = cd.Material.relaxation("2 MPa", [("8 MPa", "1 ms"), (5e6, 0.1)], poisson_ratio=0.5)
         >>> rubber.prony.moduli.tolist()
         [8000000.0, 5000000.0]
@@ -109,7 +97,7 @@ class Material(MaterialForms, _core.Body):
         raise TypeError(f"write {', '.join('Material.' + name for name in _CONSTRUCTORS)}")
 
     @classmethod
-    def _of(cls, name: str, text: str, *, keep: bool = True, tables: Sequence[tuple[str, str]] = ()) -> Material:
+    def _of(cls, name: str, text: str, *, keep: bool = True, tables: Sequence[tuple[str, bytes]] = ()) -> Material:
         material: Any = _core.Body.__new__(cls, name, text, tables)
         fit = material._fitted()
         material._fit = None if fit is None else MaterialFit._of(*fit)
@@ -119,14 +107,11 @@ class Material(MaterialForms, _core.Body):
 
     @classmethod
     def _of_form(cls, form: str, keys: dict[str, Any], **data: Any) -> Material:
-        """The material of the keys of a form, by their dotted names, in which branches may be pairs, and of data."""
+        """The material of the keys of a form, by their dotted names, and of data."""
         call, bulk = f"Material.{form}(...)", "material.bulk_modulus"
         options: dict[str, Any] = {}
         columns: dict[str, Any] = {}
         warn_of_celsius(call, **{name.rpartition(".")[2]: key for name, key in keys.items() if name.endswith("temperature")})
-        if form in ("relaxation", "creep"):
-            branches, what = f"material.{form}.branches", "modulus" if form == "relaxation" else "compliance"
-            keys[branches] = [{what: value, "time": time} for value, time in _pairs(keys[branches], what)]
         if bulk in keys:
             keys[bulk] = _bulk(keys[bulk])
         if form == "table":
@@ -143,7 +128,7 @@ class Material(MaterialForms, _core.Body):
             elif _toml.is_table(file) or file is None:
                 columns, name = dynamic_columns(arrays if file is None else file), "arguments" if file is None else "argument `file`"
                 keys["material.dynamic.file"] = name
-                options = {"keep": False, "tables": [(name, table_text(columns))]}
+                options = {"keep": False, "tables": [(name, table_text(columns).encode())]}
             else:
                 keys["material.dynamic.files"] = [_toml.path(each) for each in file]
         made = cls._of(call, _toml.document(_toml.tables(keys, "material")), **options)
@@ -158,26 +143,6 @@ class Material(MaterialForms, _core.Body):
             if self._fit.misfit > POOR_FIT:
                 warn(f"{call}: the series misses the data by {100 * self._fit.misfit:.2g} % (root mean square): see the material's fit")
         return self
-
-    @classmethod
-    def library(
-        cls, name: str, *, poisson_ratio: float | None = None, temperature: Quantity | None = None
-    ) -> Material:
-        """A material with published constants.
-
-        Args:
-            name: its name, such as ``"pmma"``; `contact_dma.library_materials()` lists all with their sources.
-            poisson_ratio: another Poisson ratio than the published one.
-            temperature: another temperature (K) than that of the published series, for materials that have a published shift.
-
-        Example:
-            >>> Material.library("pmma").poisson_ratio
-            0.38
-            >>> Material.library("pvb", temperature="30 °C").temperature
-            303.15
-        """
-        keys = {"material.library": name, "material.poisson_ratio": poisson_ratio, "material.temperature": temperature}
-        return cls._of_form("library", {name: key for name, key in keys.items() if key is not None})
 
     @classmethod
     def from_toml(cls, text: str) -> Material:
@@ -241,7 +206,7 @@ class Material(MaterialForms, _core.Body):
         return (_restored, (self.text, self._source, self._fit))
 
 
-_CONSTRUCTORS = [name for name in vars(MaterialForms) if not name.startswith("_")] + ["library", "from_toml"]
+_CONSTRUCTORS = [name for name in vars(MaterialForms) if not name.startswith("_")] + ["from_toml"]
 
 
 def _restored(text: str, source: str, fit: MaterialFit | None) -> Material:

@@ -13,13 +13,13 @@ import numpy as np
 
 from . import _calls, _toml
 from . import _contact_dma as _core
-from ._calls import identify as identify
 from ._contact_dma import MeasuredCycle as MeasuredCycle
-from ._result import Columns, Result, Table, failures, table, warn
+from ._result import Columns, Figure, Result, Table, failures, table, warn
 from ._sources import Source, source_of_values, thread_count, warn_without_effect
 from .fits import table_text
 from .indenters import Indenter
-from .materials import Material, Prony, Quantity
+from ._toml import Quantity
+from .materials import Material, Prony
 
 Record: TypeAlias = Union[str, "os.PathLike[str]", _toml.TableLike]
 """A record of load and approach: a file, or columns ``{"time": ..., "load": ..., "approach": ...}`` in s, N and m, shape (n,), of a
@@ -41,12 +41,6 @@ class AnalysisResult(_core.Loops, Result):
 
     def _failures(self) -> str | None:
         return failures(self.status, "record")
-
-    @property
-    def summary(self) -> dict[str, Any]:
-        """What the program writes to ``summary.json``."""
-        summary: dict[str, Any] = json.loads(self._summary())
-        return summary
 
     def __repr__(self) -> str:
         done = sum(status.converged for status in self.status)
@@ -126,17 +120,13 @@ def _setup(setup: str | os.PathLike[str] | Mapping[str, Any] | None) -> tuple[st
         return ("setup", None)
     if not isinstance(setup, Mapping):
         return (os.fspath(setup), Path(setup).read_text(encoding="utf-8"))
-    text = ""
-    for name, entries in setup.items():
-        if isinstance(entries, Indenter):
-            if entries._text is None:
-                raise ValueError("the indenter of a setup is a body of revolution or a file, not an array")
-            text += entries._text
-        elif isinstance(entries, Mapping):
-            text += _toml.table(name, entries)
-        else:
-            text = f"{_toml.key(name)} = {_toml.value(entries)}\n" + text
-    return ("setup", text)
+    bodies = [entries for entries in setup.values() if isinstance(entries, Indenter)]
+    if any(body._tables for body in bodies):
+        raise ValueError("the indenter of a setup is given by its keys or a file, not by arrays")
+    others = {name: entries for name, entries in setup.items() if not isinstance(entries, Indenter)}
+    tables = {name: entries for name, entries in others.items() if isinstance(entries, Mapping)}
+    head = {name: entries for name, entries in others.items() if name not in tables}
+    return ("setup", _toml.document({"": head, **tables}) + "".join(body._text for body in bodies))
 
 
 class IdentifiedMaterial:
@@ -175,6 +165,11 @@ class IdentifiedMaterial:
     def moduli(self) -> Columns:
         """E' and E'' with their bands over frequency, the columns of ``moduli.csv``."""
         return table(self._files["moduli.csv"])
+
+    @property
+    def figures(self) -> dict[str, Figure]:
+        """The figures that the program draws of it, by name, as those of a sweep."""
+        return {figure.name: figure for figure in _core.kept_figures(self._files["figures.json"])}
 
     def save(self, folder: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Writes the tables that ``contact-dma identify`` writes: ``material.toml``, ``prony.csv``, ``fit.csv``, ``moduli.csv``,
@@ -236,7 +231,7 @@ def _identify(
         raise ValueError("overrides change a file; write options as arguments: branches=3 in place of {'identify.branches': 3}")
     name, tables = "argument `data`", []
     if _toml.is_table(data):
-        tables = [(name, table_text(_columns(data)))]
+        tables = [(name, table_text(_columns(data)).encode())]
     else:
         name = _toml.path(data)  # type: ignore[arg-type]
     keys = {"identify.data": name, **keys}

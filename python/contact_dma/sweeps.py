@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Mapping, Sequence
 from typing import Any, overload
 
 from . import _calls
 from . import _contact_dma as _core
-from ._calls import sweep as sweep
 from ._contact_dma import Cycle as Cycle
 from ._contact_dma import Peak as Peak
 from ._contact_dma import PressureLine as PressureLine
@@ -67,12 +65,6 @@ class SweepResult(_core.Sweep, Result):
         """The stabilised cycle of every case."""
         return Cycles(self)
 
-    @property
-    def summary(self) -> dict[str, Any]:
-        """What the program writes to ``summary.json``."""
-        summary: dict[str, Any] = json.loads(self._summary())
-        return summary
-
     def __repr__(self) -> str:
         done = sum(status.converged for status in self.status)
         peaks, warned = len(self.peaks), sum(map(bool, self.warnings))
@@ -81,6 +73,10 @@ class SweepResult(_core.Sweep, Result):
 
     def _failures(self) -> str | None:
         return failures(self.status, "case")
+
+    def _axes(self) -> list[str]:
+        frequency, *others = list(self)[: list(self).index("drive_amplitude") + 1]
+        return [*(name for name in others if "frequency" not in name and len(set(self[name].tolist())) > 1), frequency]
 
     def _remarks(self) -> list[str]:
         peaks = [f"peak of {peak.energy_loss:.4g} J at {peak.angular_frequency:.4g} rad/s" for peak in self.peaks[:5]]

@@ -1,4 +1,4 @@
-//! Blocks of TOML text: given another place, or taken out, whatever they look like.
+//! Blocks of TOML text: given another place, whatever they look like.
 
 use contact_dma::input::document::Document;
 use pyo3::PyResult;
@@ -25,13 +25,6 @@ pub fn placed(text: &str, block: &str, place: &str, name: Option<String>) -> PyR
         value = Value::Table(Table::from_iter([(key.to_owned(), value)]));
     }
     toml::to_string(&value).map_err(failure::of_value)
-}
-
-/// The text without a block.
-pub fn without(text: &str, block: &str) -> PyResult<String> {
-    let mut root = table(text)?;
-    root.remove(block);
-    toml::to_string(&root).map_err(failure::of_value)
 }
 
 fn table(text: &str) -> PyResult<Table> {

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use contact_dma::input::document::Document;
 use contact_dma::input::given::{self, DynamicFit};
+use contact_dma::material::export::{self, Program};
 use contact_dma::material::fit::FitRemark;
 use contact_dma::material::{Material, MaterialError, ModulusKind};
 use contact_dma::report::dynamic::{DynamicReport, Source};
@@ -14,6 +14,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::measured::{Files, bytes};
+use crate::source::{Held, document};
 use crate::{arrays, failure, wait};
 
 /// A material that was read from its block of a sweep file.
@@ -36,15 +37,10 @@ type Prony<'py> = (f64, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 impl Body {
     #[new]
     #[pyo3(signature = (name, text, tables = Vec::new()))]
-    fn new(
-        py: Python<'_>,
-        name: String,
-        text: String,
-        tables: Vec<(String, String)>,
-    ) -> PyResult<Self> {
+    fn new(py: Python<'_>, name: String, text: String, tables: Held) -> PyResult<Self> {
         let block = text.clone();
         let read = wait::run_unheard(py, move |_| {
-            let document = Document::with_tables(&name, &block, tables)?;
+            let document = document(&name, &block, tables)?;
             given::material_with_fit(&document)
         })?;
         let (material, dynamic) = read.map_err(|found| failure::of_input(&found))?;
@@ -133,7 +129,7 @@ impl Body {
     ///
     /// Returns:
     ///     complex numbers of the same shape.
-    #[pyo3(signature = (angular_frequency: "ArrayLike", *, modulus: "ModulusKind" = "longitudinal") -> "Any")]
+    #[pyo3(signature = (angular_frequency: "ArrayLike", *, modulus: "ModulusKind" = "longitudinal") -> "complex")]
     fn complex_modulus<'py>(
         &self,
         angular_frequency: &Bound<'py, PyAny>,
@@ -154,7 +150,7 @@ impl Body {
     ///
     /// Returns:
     ///     numbers of the same shape.
-    #[pyo3(signature = (time: "ArrayLike", *, modulus: "ModulusKind" = "longitudinal") -> "Any")]
+    #[pyo3(signature = (time: "ArrayLike", *, modulus: "ModulusKind" = "longitudinal") -> "float")]
     fn creep_compliance<'py>(
         &self,
         time: &Bound<'py, PyAny>,
@@ -173,7 +169,7 @@ impl Body {
     ///
     /// Returns:
     ///     numbers of the same shape.
-    #[pyo3(signature = (time: "ArrayLike", *, modulus: "ModulusKind" = "longitudinal") -> "Any")]
+    #[pyo3(signature = (time: "ArrayLike", *, modulus: "ModulusKind" = "longitudinal") -> "float")]
     fn relaxation_modulus<'py>(
         &self,
         time: &Bound<'py, PyAny>,
@@ -181,6 +177,21 @@ impl Body {
     ) -> PyResult<Bound<'py, PyAny>> {
         let relaxation = self.relaxation(modulus)?;
         arrays::mapped(time, "s", |time| relaxation.modulus(time))
+    }
+
+    /// The text that gives the material to a finite element program.
+    ///
+    /// Args:
+    ///     program: ``"abaqus"``, ``"ansys"``, ``"ls-dyna"``, ``"comsol"``, or ``"csv"``.
+    fn export(&self, program: &str) -> PyResult<String> {
+        let known = Program::ALL.into_iter().find(|p| p.name() == program);
+        let known = known.ok_or_else(|| {
+            let names = Program::ALL.map(Program::name).join(", ");
+            failure::of_value(format!("no program is \"{program}\": write one of {names}"))
+        })?;
+        let material = self.series()?;
+        let made = export::export(material, material.origin.shift.as_ref(), known);
+        Ok(made.map_err(failure::of_value)?.text)
     }
 
     fn _prony<'py>(&self, py: Python<'py>) -> PyResult<Prony<'py>> {

@@ -1,19 +1,17 @@
-//! Folders of results: a map of an array is written as a file there, so that the program reads the folder as one of its own.
+//! Folders of results: what a call had as arrays is written as files there, so that the program reads the folder as one of its own.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use contact_dma::engine::SolverPlan;
-use contact_dma::indenter::{HeightMap, Indenter, MapQuantity, data_file};
+use contact_dma::input::diagnostic::{Diagnostics, Tables};
 use contact_dma::input::document::Document;
-use contact_dma::report::npy;
-use contact_dma::sweep::plan::resolved::hash_of_bytes;
+use contact_dma::quantity::setting::toml_string;
 use contact_dma::sweep::store::provenance::{Circumstances, Stopwatch};
 use contact_dma::sweep::store::{RESOLVED, Store, files};
 use pyo3::prelude::*;
 
 use crate::failure;
-use crate::shape::Shape;
 
 /// The folder and the text of a plan, to be read.
 pub fn document(folder: &Path) -> PyResult<(Store, Document)> {
@@ -24,48 +22,50 @@ pub fn document(folder: &Path) -> PyResult<(Store, Document)> {
     Ok((store, document.in_folder(folder)))
 }
 
-/// A plan whose results are to be written, where it has its indenter, and how it is written.
-pub struct Opening<'a, P> {
-    pub plan: &'a P,
-    pub indenter: fn(&mut P) -> &mut Arc<dyn Indenter>,
+/// How a kind of plan is written and read.
+pub struct Format<P> {
     pub resolved: fn(&P) -> String,
-    /// The indenter, of a plan whose text does not say all of it.
-    pub shape: Option<&'a Py<Shape>>,
+    pub read: fn(&Document) -> Result<P, Diagnostics>,
 }
 
-impl<P: Clone> Opening<'_, P> {
-    /// The folder, and the plan with the file of its map.
-    pub fn open(&self, folder: &Path, force: bool) -> PyResult<(Store, P)> {
-        let mut plan = self.plan.clone();
-        let map = self.shape.and_then(|shape| shape.get().map());
-        let map = map.map(|map| file_of(map, folder)).transpose()?;
-        let bytes = map.map(|(bytes, same)| {
-            *(self.indenter)(&mut plan) = Arc::new(same);
-            bytes
-        });
+impl<P: Clone> Format<P> {
+    /// The folder for the results of a plan, with the tables that it names as files, and the plan that names these.
+    pub fn open(
+        &self,
+        plan: &P,
+        tables: &Tables,
+        (folder, force): (&Path, bool),
+    ) -> PyResult<(Store, P)> {
         let stored = |error| failure::of_store(&error);
+        let resolved = (self.resolved)(plan);
+        if tables.is_empty() {
+            let store = Store::open(folder, &resolved, force).map_err(stored)?;
+            return Ok((store, plan.clone()));
+        }
+        let (mut text, mut names, mut placed) = (resolved, Vec::new(), Tables::new());
+        for (name, bytes) in tables {
+            let is_map = bytes.starts_with(b"\x93NUMPY");
+            let before = placed
+                .iter()
+                .filter(|(file, _)| file.ends_with(".npy") == is_map);
+            let file = files::of_array(is_map, before.count());
+            let path = std::path::absolute(folder.join(&file)).map_err(failure::of_value)?;
+            let path = path.to_str().ok_or_else(|| {
+                failure::of_value("the path of the folder is not UTF-8, and cannot be written down")
+            })?;
+            text = text.replace(&toml_string(name), &toml_string(path));
+            placed.push((path.to_owned(), Arc::clone(bytes)));
+            names.push(file);
+        }
+        let document = Document::with_tables(RESOLVED, &text, placed.clone());
+        let plan = document.and_then(|document| (self.read)(&document));
+        let plan = plan.map_err(|found| failure::of_input(&found))?;
         let store = Store::open(folder, &(self.resolved)(&plan), force).map_err(stored)?;
-        if let Some(bytes) = bytes {
-            store.write(files::HEIGHT_MAP, &bytes).map_err(stored)?;
+        for (file, (_, bytes)) in names.iter().zip(&placed) {
+            store.write(file, bytes).map_err(stored)?;
         }
         Ok((store, plan))
     }
-}
-
-/// The file that a map has in this folder, and the map as it is read from there.
-fn file_of(map: &HeightMap, folder: &Path) -> PyResult<(Vec<u8>, HeightMap)> {
-    let (cells_x, cells_y) = map.cells();
-    let bytes = npy::matrix(cells_y, cells_x, map.gaps_m());
-    let path = std::path::absolute(folder.join(files::HEIGHT_MAP)).map_err(failure::of_value)?;
-    let file = path.to_str().ok_or_else(|| {
-        failure::of_value("the path of the folder is not UTF-8, and cannot be written down")
-    })?;
-    let (spacing_m, gaps) = (map.spacing_m(), map.gaps_m().to_vec());
-    let same = HeightMap::new(map.cells(), spacing_m, gaps, MapQuantity::Gap, map.edge());
-    let same = same.map_err(failure::of_value)?;
-    let mut parameters = data_file(file, &hash_of_bytes(&bytes));
-    parameters.extend(same.parameters());
-    Ok((bytes, same.made_from(HeightMap::SHAPE, parameters)))
 }
 
 /// Writes where results come from: solver and tolerance, threads and cases.

@@ -6,22 +6,24 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use contact_dma::contact::surface::{CellSurface, Surface};
+use contact_dma::input::diagnostic::Tables;
 use contact_dma::input::scenario_file;
-use contact_dma::report::figure::{self, units::Units};
+use contact_dma::report::figure::units::Units;
 use contact_dma::report::profile_lines::{Profile, ProfilePoint};
 use contact_dma::report::quantities::{Moment, of_cycles, of_moments};
 use contact_dma::report::{self, scenario_folder, scenario_tables};
 use contact_dma::simulation::outside_model;
 use contact_dma::simulation::scenario::{ScenarioPlan, resolved_text};
 use contact_dma::simulation::{Simulation, SimulationEnd, SimulationOutcome, SurfaceRecord};
+use contact_dma::sweep::plan::resolved::hash;
 use contact_dma::sweep::store::provenance::Stopwatch;
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 
-use crate::folder::{self, Opening};
-use crate::record::{Field, Items, SurfaceLine, SurfaceProfile, Warning, picture};
-use crate::shape::Shape;
+use crate::figure::Figure;
+use crate::folder::{self, Format};
+use crate::record::{Field, Items, SurfaceLine, SurfaceProfile, Warning};
 use crate::source::{Origin, Packed, Source, reduced};
 use crate::wait::{self, Job};
 use crate::{arrays, failure};
@@ -31,8 +33,8 @@ use crate::{arrays, failure};
 pub struct History {
     plan: ScenarioPlan,
     made: scenario_tables::History,
-    /// The indenter, of a plan whose text does not say all of it.
-    shape: Option<Py<Shape>>,
+    /// What the plan names as files and has in memory.
+    tables: Tables,
     /// Where it was read.
     folder: Option<PathBuf>,
 }
@@ -48,17 +50,17 @@ impl History {
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let packed = match origin {
-            Origin::Call(source) => return simulated(py, &source, threads, progress.as_ref()),
+            Origin::Call(source) => return simulated(py, source, threads, progress.as_ref()),
             Origin::Folder(folder) => return py.detach(|| read(folder)),
             Origin::Packed(packed) => packed,
         };
-        let (document, given) = packed.document("the pickled history")?;
-        let plan = scenario_file::plan_with(&document, &given);
+        let (document, tables) = packed.document(py, "the pickled history")?;
+        let plan = scenario_file::plan(&document);
         let outcome: Result<SimulationOutcome, _> = postcard::from_bytes(packed.3.as_bytes(py));
         Ok(Self {
             plan: plan.map_err(|found| failure::of_input(&found))?,
             made: outcome.map_err(|_| failure::of_other_build())?.into(),
-            shape: packed.2,
+            tables,
             folder: None,
         })
     }
@@ -68,14 +70,20 @@ impl History {
         arrays::columns(py, &of_moments(), &moments)
     }
 
+    fn _summary(&self) -> PyResult<Vec<u8>> {
+        let hash = hash(&self.resolved());
+        let summary = scenario_tables::summary(&self.plan, &self.made.outcome, &hash);
+        summary.map_err(|error| failure::of_report(&error))
+    }
+
     fn _cycles<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
         arrays::columns(py, &of_cycles(), &self.made.outcome.cycles)
     }
 
-    /// A picture of load, approach and contact radius, as HTML.
-    fn _picture(&self) -> Option<String> {
-        let figure = figure::history::figure(&self.made.outcome, &Units::default());
-        picture(&figure.ok()?)
+    fn _figures(&self) -> PyResult<Vec<Figure>> {
+        let units = Units::of_scenario(&self.plan).map_err(|error| failure::of_report(&error))?;
+        let (figures, _) = report::scenario::lines(&self.made, &units);
+        Ok(Figure::all(figures, &self.plan.figures))
     }
 
     /// Its title.
@@ -161,13 +169,11 @@ impl History {
     #[pyo3(signature = (folder, *, overwrite = false))]
     fn save(&self, py: Python<'_>, folder: PathBuf, overwrite: bool) -> PyResult<()> {
         py.detach(|| {
-            let store = Opening {
-                plan: &self.plan,
-                indenter: |plan| &mut plan.contact.indenter,
+            let format = Format {
                 resolved: resolved_text,
-                shape: self.shape.as_ref(),
+                read: scenario_file::plan,
             };
-            let (store, plan) = store.open(&folder, overwrite)?;
+            let (store, plan) = format.open(&self.plan, &self.tables, (&folder, overwrite))?;
             let written = report::scenario::write_tables(&store, &plan, &self.made);
             written.map_err(|error| failure::of_report(&error))?;
             let clock = Stopwatch::start();
@@ -185,7 +191,7 @@ impl History {
         }
         let outcome = postcard::to_stdvec(&this.made.outcome).map_err(failure::of_run)?;
         let resolved = resolved_text(&this.plan);
-        let packed = Packed::of(py, resolved, this.shape.as_ref(), &outcome, 1);
+        let packed = Packed::of(py, resolved, &this.tables, &outcome, 1);
         reduced(slf.as_any(), packed)
     }
 }
@@ -224,7 +230,7 @@ fn read(folder: PathBuf) -> PyResult<History> {
     Ok(History {
         made: made.map_err(|found| failure::of_input(&found))?,
         plan: simulation.plan().clone(),
-        shape: None,
+        tables: Tables::new(),
         folder: Some(folder),
     })
 }
@@ -232,11 +238,12 @@ fn read(folder: PathBuf) -> PyResult<History> {
 /// Follows a drive history.
 fn simulated(
     py: Python<'_>,
-    source: &Source<'_>,
+    mut source: Source<'_>,
     threads: Option<NonZeroUsize>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<History> {
-    let (document, given) = (source.document()?, source.given());
+    let (given, tables) = (source.given(), source.tables());
+    let document = source.document(&tables)?;
     let plan = scenario_file::plan_with(&document, &given);
     let plan = plan.map_err(|found| failure::of_input(&found))?;
     let simulation = Simulation::new(plan).map_err(failure::of_value)?;
@@ -252,7 +259,7 @@ fn simulated(
     Ok(History {
         plan: simulation.plan().clone(),
         made: outcome.into(),
-        shape: source.map(),
+        tables,
         folder: None,
     })
 }

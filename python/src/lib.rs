@@ -9,6 +9,7 @@ mod arrays;
 mod blocks;
 mod body;
 mod failure;
+mod figure;
 mod folder;
 mod history;
 mod measured;
@@ -28,6 +29,8 @@ mod _contact_dma {
     use crate::body::Body;
     use crate::failure;
     #[pymodule_export]
+    use crate::figure::{Figure, kept_figures};
+    #[pymodule_export]
     use crate::history::History;
     #[pymodule_export]
     use crate::measured::{Loops, identify_material, quantity, write_identification};
@@ -40,18 +43,38 @@ mod _contact_dma {
     use crate::shape::Shape;
     #[pymodule_export]
     use crate::sweep::Sweep;
-    use contact_dma::input::python_calls;
+    use contact_dma::input::{keys::FileKind, python_calls, schema as schemas};
     use contact_dma::material::library;
+    use contact_dma::sweep::store::provenance;
     use pyo3::prelude::*;
 
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");
+    #[pymodule_export]
+    const BUILD: &str = provenance::BUILD;
+    #[pymodule_export]
+    const COMMIT: Option<&str> = provenance::COMMIT;
 
     /// Names and titles of the materials of the library.
     #[pyfunction]
     fn library_materials() -> Vec<(&'static str, &'static str, &'static str)> {
         let entries = library::entries().iter();
         entries.map(|e| (e.name, e.title, e.source)).collect()
+    }
+
+    /// The JSON Schema of a kind of input files, as text.
+    #[pyfunction]
+    fn schema(kind: &str) -> PyResult<String> {
+        let mut kinds = FileKind::NAMES.iter();
+        let named = kinds.find(|(name, _)| *name == kind);
+        let error = || {
+            let names: Vec<&str> = FileKind::NAMES.iter().map(|(name, _)| *name).collect();
+            let names = names.join(", ");
+            failure::of_value(format!("no files are \"{kind}\": write one of {names}"))
+        };
+        named
+            .map(|(_, kind)| schemas::text(*kind))
+            .ok_or_else(error)
     }
 
     /// What takes keys of the input files as its arguments, as JSON.

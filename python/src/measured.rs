@@ -24,7 +24,8 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple, PyType};
 use rayon::prelude::*;
 
-use crate::record::{Items, MeasuredCycle, Status, Warning, picture};
+use crate::figure::Figure;
+use crate::record::{Items, MeasuredCycle, Status, Warning};
 use crate::source::{Source, reduced};
 use crate::wait::{self, Job};
 use crate::{arrays, failure};
@@ -113,9 +114,8 @@ impl Loops {
         Items::new(py, self.0.rows.iter().map(cycle))
     }
 
-    /// A picture of the first figure, the loops, as HTML.
-    fn _picture(&self) -> Option<String> {
-        picture(figure::measured::figures(&self.0).first()?)
+    fn _figures(&self) -> Vec<Figure> {
+        Figure::all(figure::measured::figures(&self.0), &FigurePlan::default())
     }
 
     fn _summary(&self) -> PyResult<Vec<u8>> {
@@ -242,10 +242,11 @@ pub fn bytes<N: Into<String>>(py: Python<'_>, files: Vec<(N, Vec<u8>)>) -> Files
 #[pyo3(signature = (source: "object", threads))]
 pub fn identify_material<'py>(
     py: Python<'py>,
-    source: Source<'py>,
+    mut source: Source<'py>,
     threads: Option<NonZeroUsize>,
 ) -> PyResult<Files<'py>> {
-    let (document, given) = (source.document()?, source.given());
+    let (given, tables) = (source.given(), source.tables());
+    let document = source.document(&tables)?;
     let plan = identify_file::plan_with(&document, &given);
     let plan = plan.map_err(|found| failure::of_input(&found))?;
     let job = Job::default();

@@ -2,7 +2,6 @@
 
 use std::marker::PhantomData;
 
-use contact_dma::report::figure::Figure;
 use numpy::{PyArray1, PyArray2};
 use pyo3::conversion::FromPyObjectOwned;
 use pyo3::exceptions::PyTypeError;
@@ -327,9 +326,4 @@ impl Warning {
             message,
         }
     }
-}
-
-/// A figure as an element of HTML; `None` where it cannot be drawn.
-pub fn picture(figure: &Figure) -> Option<String> {
-    Some(figure.picture.draw().ok()?.to_page_element())
 }

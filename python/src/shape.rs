@@ -2,95 +2,61 @@
 
 use std::sync::Arc;
 
-use contact_dma::indenter::{HeightMap, Indenter, MapEdge};
-use contact_dma::input::document::Document;
-use contact_dma::input::field_file::Field;
+use contact_dma::indenter::{Domain, Indenter, Setting, Value};
 use contact_dma::input::given;
-use numpy::{
-    IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods,
-};
-use pyo3::exceptions::PyValueError;
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1};
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyDict, PyTuple};
 
-use crate::{arrays, failure};
+use crate::failure;
+use crate::source::{Held, document};
 
-/// An indenter that was read from its block of a sweep file, or a height map of an array.
+/// An indenter that was read from its block of a sweep file.
 #[pyclass(frozen, module = "contact_dma._contact_dma")]
-pub struct Shape {
-    indenter: Arc<dyn Indenter>,
-    /// The map, of one that has no file.
-    map: Option<Arc<HeightMap>>,
-}
+pub struct Shape(Arc<dyn Indenter>);
 
 #[pymethods]
 impl Shape {
-    /// The indenter of a block.
+    /// The indenter of a block, which may name these tables as files.
     #[new]
-    fn new(py: Python<'_>, name: &str, text: &str) -> PyResult<Self> {
+    fn new(py: Python<'_>, name: &str, text: &str, tables: Held) -> PyResult<Self> {
         // Files are read while other threads of Python go on.
-        let indenter = py.detach(|| given::indenter(&Document::parse(name, text)?));
-        Ok(Self {
-            indenter: indenter.map_err(|found| failure::of_input(&found))?,
-            map: None,
-        })
+        let indenter = py.detach(|| given::indenter(&document(name, text, tables)?));
+        Ok(Self(indenter.map_err(|found| failure::of_input(&found))?))
     }
 
-    /// Shape and settings, by which indenters of text are compared.
+    /// Shape and settings, by which indenters are compared; a file counts by its content.
     fn key(&self) -> String {
-        format!("{} {:?}", self.indenter.shape(), self.indenter.parameters())
+        let settings = self.0.parameters().into_iter();
+        let settings: Vec<Setting> = settings.filter(|s| s.key != "file").collect();
+        format!("{} {settings:?}", self.0.shape())
     }
 
-    /// A map of heights, one row for each y, with the other keys of its block.
-    #[staticmethod]
-    fn of_heights(name: &str, text: &str, heights: PyReadonlyArray2<'_, f64>) -> PyResult<Self> {
-        let document = Document::parse(name, text).map_err(|found| failure::of_input(&found))?;
-        let (cells_y, cells_x) = (heights.shape()[0], heights.shape()[1]);
-        let field = Field {
-            cells_x,
-            cells_y,
-            values_m: heights.as_array().iter().copied().collect(),
-            spacing_m: None,
+    /// Its settings by their keys, numbers in SI units.
+    #[pyo3(signature = () -> "dict[str, Any]")]
+    fn settings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        settings(py, &self.0.parameters())
+    }
+
+    /// Gap (m) at the points of its grid, a row for each y.
+    fn gaps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let map = self.0.made_of().unwrap_or(&*self.0);
+        let (Some((columns, rows)), Domain::Cells { spacing_m, .. }) =
+            (map.own_cells(), map.domain(0.0, 0.0))
+        else {
+            return Err(failure::of_value(
+                "this indenter has no grid: its gap is gap(x, y)",
+            ));
         };
-        let map = given::height_map(&document, field);
-        let map = Arc::new(map.map_err(|found| failure::of_input(&found))?);
-        Ok(Self {
-            indenter: Arc::clone(&map) as Arc<dyn Indenter>,
-            map: Some(map),
-        })
-    }
-
-    /// Gap (m) at every point of a map of an array.
-    fn gaps<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let map = slf.get().map_of_array()?;
-        let (cells_x, cells_y) = map.cells();
-        let gaps = arrays::matrix(slf.as_any(), map.gaps_m(), (cells_y, cells_x));
-        gaps.ok_or_else(|| failure::of_run("the map has another size than it says"))
-    }
-
-    /// A map of an array by its gaps; other indenters are pickled by their text.
-    #[pyo3(signature = () -> "tuple[Any, tuple[Any, ...]]")]
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
-        let py = slf.py();
-        let arguments = ("HeightMap(...)", slf.get().map_keys()?, Self::gaps(slf)?);
-        let of_heights = py.get_type::<Self>().getattr("of_heights")?;
-        Ok((of_heights, arguments.into_pyobject(py)?))
-    }
-
-    /// The block, without file, that a map of an array has together with its gaps.
-    fn map_keys(&self) -> PyResult<String> {
-        let map = self.map_of_array()?;
-        let (x_m, y_m) = map.spacing_m();
-        let edge = match map.edge() {
-            MapEdge::Unknown => "unknown",
-            MapEdge::Rim => "rim",
-            MapEdge::Periodic => "periodic",
-        };
-        Ok(format!(
-            "[indenter]\nshape = \"height-map\"\nquantity = \"gap\"\nspacing = [{x_m:?}, {y_m:?}]\nedge = \"{edge}\"\n"
-        ))
+        let place =
+            |index: usize, count: usize| index as f64 - 0.5 * (count.saturating_sub(1)) as f64;
+        let gaps = Array2::from_shape_fn((rows, columns), |(row, column)| {
+            let x_m = place(column, columns) * spacing_m.0;
+            map.gap_m(x_m, place(row, rows) * spacing_m.1)
+        });
+        Ok(gaps.into_pyarray(py))
     }
 
     /// Gap (m) between the undeformed indenter and the half-space at points x, y (m).
@@ -102,7 +68,7 @@ impl Shape {
     ) -> Bound<'py, PyArray1<f64>> {
         let (x, y) = (x.as_array(), y.as_array());
         let points = x.iter().zip(y.iter());
-        let gaps: Vec<f64> = points.map(|(x, y)| self.indenter.gap_m(*x, *y)).collect();
+        let gaps: Vec<f64> = points.map(|(x, y)| self.0.gap_m(*x, *y)).collect();
         gaps.into_pyarray(py)
     }
 }
@@ -110,16 +76,35 @@ impl Shape {
 impl Shape {
     /// The indenter as plans take it.
     pub fn indenter(&self) -> Arc<dyn Indenter> {
-        Arc::clone(&self.indenter)
+        Arc::clone(&self.0)
     }
+}
 
-    fn map_of_array(&self) -> PyResult<&HeightMap> {
-        let map = self.map();
-        map.ok_or_else(|| PyValueError::new_err("this indenter is no map of an array"))
+fn settings<'py>(py: Python<'py>, settings: &[Setting]) -> PyResult<Bound<'py, PyDict>> {
+    let made = PyDict::new(py);
+    for setting in settings {
+        made.set_item(&*setting.key, object(py, &setting.value)?)?;
     }
+    Ok(made)
+}
 
-    /// The map, of one that has no file.
-    pub fn map(&self) -> Option<&HeightMap> {
-        self.map.as_deref()
+/// What a key has, as Python has it.
+fn object<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
+    match value {
+        Value::Quantity(number, _) | Value::Number(number) | Value::Tolerance(number) => {
+            number.into_bound_py_any(py)
+        }
+        Value::Quantities(numbers, _)
+        | Value::QuantityLines(numbers, _)
+        | Value::Numbers(numbers) => Ok(PyTuple::new(py, numbers)?.into_any()),
+        Value::Integer(integer) => integer.into_bound_py_any(py),
+        Value::Flag(flag) => flag.into_bound_py_any(py),
+        Value::Text(text) => text.into_bound_py_any(py),
+        Value::Texts(texts) => Ok(PyTuple::new(py, texts)?.into_any()),
+        Value::Tables(tables) | Value::TablesInLine(tables) => {
+            let tables = tables.iter().map(|table| settings(py, table));
+            let tables = tables.collect::<PyResult<Vec<_>>>()?;
+            Ok(PyTuple::new(py, tables)?.into_any())
+        }
     }
 }

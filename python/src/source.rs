@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use contact_dma::input::diagnostic::{Diagnostics, Tables};
 use contact_dma::input::document::Document;
 use contact_dma::input::given::Given;
 use contact_dma::sweep::store::provenance::BUILD;
@@ -9,8 +10,21 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple, PyType};
 
 use crate::body::Body;
+use crate::failure;
 use crate::shape::Shape;
-use crate::{blocks, failure};
+
+/// Tables that a text names as files: names and contents.
+pub type Held = Vec<(String, Vec<u8>)>;
+
+/// The document of a text.
+pub fn document(name: &str, text: &str, tables: Held) -> Result<Document, Diagnostics> {
+    Document::with_tables(name, text, shared(tables))
+}
+
+fn shared(tables: Held) -> Tables {
+    let tables = tables.into_iter();
+    tables.map(|(name, bytes)| (name, bytes.into())).collect()
+}
 
 /// Where the blocks of a call come from.
 #[derive(FromPyObject)]
@@ -21,17 +35,16 @@ pub struct Source<'py> {
     text: Option<String>,
     /// Arguments as of `--set`.
     set: Vec<String>,
-    /// Tables that the text names as files: names and texts.
-    tables: Vec<(String, String)>,
+    tables: Held,
     material: Option<Bound<'py, Body>>,
     indenter: Option<Bound<'py, Shape>>,
 }
 
-impl<'py> Source<'py> {
+impl Source<'_> {
     /// The document, in which paths start from the folder of the file or from the working folder.
-    pub fn document(&self) -> PyResult<Document> {
+    pub fn document(&self, tables: &Tables) -> PyResult<Document> {
         let read = match &self.text {
-            Some(text) => Document::with_tables(&self.name, text, self.tables.clone()),
+            Some(text) => Document::with_tables(&self.name, text, tables.clone()),
             None => Document::read(&PathBuf::from(&self.name)),
         };
         let mut document = read.map_err(|found| failure::of_input(&found))?;
@@ -50,10 +63,9 @@ impl<'py> Source<'py> {
         }
     }
 
-    /// The indenter, where no text says all of it.
-    pub fn map(&self) -> Option<Py<Shape>> {
-        let shape = self.indenter.as_ref()?;
-        shape.get().map().map(|_| shape.clone().unbind())
+    /// What the text, or a block that is a value, names as files.
+    pub fn tables(&mut self) -> Tables {
+        shared(std::mem::take(&mut self.tables))
     }
 }
 
@@ -68,13 +80,13 @@ pub enum Origin<'py> {
     Folder(PathBuf),
 }
 
-/// A result for another process of the same build: the build, the resolved text, the indenter where no text says all of it, what was
-/// computed, and the number of threads.
+/// A result for another process of the same build: the build, the resolved text, the tables that it names as files, what was computed, and
+/// the number of threads.
 #[derive(FromPyObject, IntoPyObject)]
 pub struct Packed(
     pub String,
     pub String,
-    pub Option<Py<Shape>>,
+    pub Vec<(String, Py<PyBytes>)>,
     pub Py<PyBytes>,
     pub usize,
 );
@@ -83,39 +95,34 @@ impl Packed {
     pub fn of(
         py: Python<'_>,
         resolved: String,
-        shape: Option<&Py<Shape>>,
+        tables: &Tables,
         bytes: &[u8],
         threads: usize,
     ) -> Self {
-        let shape = shape.map(|shape| shape.clone_ref(py));
+        let packed = |bytes: &[u8]| PyBytes::new(py, bytes).unbind();
+        let tables = tables.iter();
         Self(
             BUILD.to_owned(),
             resolved,
-            shape,
-            PyBytes::new(py, bytes).unbind(),
+            tables
+                .map(|(name, bytes)| (name.clone(), packed(bytes)))
+                .collect(),
+            packed(bytes),
             threads,
         )
     }
 
-    /// The document and the indenter, where the build is this one.
-    pub fn document(&self, name: &str) -> PyResult<(Document, Given)> {
+    /// The document and its tables, where the build is this one.
+    pub fn document(&self, py: Python<'_>, name: &str) -> PyResult<(Document, Tables)> {
         if self.0 != BUILD {
             return Err(failure::of_other_build());
         }
-        let text = match &self.2 {
-            // The indenter is a value.
-            Some(_) => blocks::without(&self.1, "indenter")?,
-            None => self.1.clone(),
-        };
-        let document = Document::parse(name, &text).map_err(|found| failure::of_input(&found))?;
-        let indenter = self.2.as_ref().map(|shape| shape.get().indenter());
-        Ok((
-            document,
-            Given {
-                material: None,
-                indenter,
-            },
-        ))
+        let tables = self.2.iter();
+        let tables: Tables = tables
+            .map(|(name, bytes)| (name.clone(), bytes.as_bytes(py).into()))
+            .collect();
+        let document = Document::with_tables(name, &self.1, tables.clone());
+        Ok((document.map_err(|found| failure::of_input(&found))?, tables))
     }
 }
 

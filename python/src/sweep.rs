@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex};
 
+use contact_dma::input::diagnostic::Tables;
 use contact_dma::input::document::Document;
 use contact_dma::input::given::Given;
 use contact_dma::input::sweep_file;
-use contact_dma::report::{cycles, figure, quantities, summary, sweep_tables};
+use contact_dma::report::{self, cycles, figure, quantities, summary, sweep_tables};
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::resolved::{hash, resolved_text};
 use contact_dma::sweep::plan::{SweepPlan, Varied};
@@ -23,11 +24,11 @@ use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 use pyo3::types::{PyTuple, PyType};
 
-use crate::folder::{self, Opening};
+use crate::figure::Figure;
+use crate::folder::{self, Format};
 use crate::record::{
-    AxisValue, Cycle, Items, Line, Peak, PressureLine, PressureProfile, Status, Warning, picture,
+    AxisValue, Cycle, Items, Line, Peak, PressureLine, PressureProfile, Status, Warning,
 };
-use crate::shape::Shape;
 use crate::source::{Origin, Packed, reduced};
 use crate::wait::{self, Job};
 use crate::{arrays, failure};
@@ -53,8 +54,8 @@ pub struct Sweep {
     plan: SweepPlan,
     outcome: Outcome,
     records: Records,
-    /// The indenter, of a plan whose text does not say all of it.
-    shape: Option<Py<Shape>>,
+    /// What the plan names as files and has in memory.
+    tables: Tables,
     clock: Stopwatch,
     threads: usize,
     notes: Vec<String>,
@@ -94,43 +95,30 @@ impl Sweep {
         threads: Option<NonZeroUsize>,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
-        match origin {
-            Origin::Call(source) => {
-                let (document, given) = (source.document()?, source.given());
-                let made = (Records::Memory(records::Records::default()), source.map());
-                swept(
-                    py,
-                    (&document, &given),
-                    made,
-                    (true, threads),
-                    progress.as_ref(),
-                )
+        let (document, given, records, tables, is_solved, threads) = match origin {
+            Origin::Call(mut source) => {
+                let (given, tables) = (source.given(), source.tables());
+                let records = Records::Memory(records::Records::default());
+                let document = source.document(&tables)?;
+                (document, given, records, tables, true, threads)
             }
             Origin::Packed(packed) => {
-                let (document, given) = packed.document("the pickled sweep")?;
+                let (document, tables) = packed.document(py, "the pickled sweep")?;
                 let memory = records::Records::from_bytes(packed.3.as_bytes(py));
-                let memory = Records::Memory(memory.ok_or_else(failure::of_other_build)?);
+                let records = Records::Memory(memory.ok_or_else(failure::of_other_build)?);
                 let threads = NonZeroUsize::new(packed.4);
-                swept(
-                    py,
-                    (&document, &given),
-                    (memory, packed.2),
-                    (false, threads),
-                    None,
-                )
+                (document, Given::default(), records, tables, false, threads)
             }
             Origin::Folder(folder) => {
                 let (store, document) = folder::document(&folder)?;
-                let (made, threads) = ((Records::Folder(store), None), Some(NonZeroUsize::MIN));
-                swept(
-                    py,
-                    (&document, &Given::default()),
-                    made,
-                    (false, threads),
-                    None,
-                )
+                let (records, threads) = (Records::Folder(store), Some(NonZeroUsize::MIN));
+                let none = Tables::new();
+                (document, Given::default(), records, none, false, threads)
             }
-        }
+        };
+        let made = (records, tables);
+        let how = (is_solved, threads);
+        swept(py, (&document, &given), made, how, progress.as_ref())
     }
 
     fn _all_columns<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
@@ -192,20 +180,15 @@ impl Sweep {
         resolved_text(&self.plan)
     }
 
-    /// A picture of the losses over frequency, as HTML; None where no case has a result.
-    fn _picture(&self) -> PyResult<Option<String>> {
-        if self
-            .outcome
-            .records
-            .iter()
-            .all(|record| record.result.is_none())
-        {
-            return Ok(None);
-        }
-        let figure = figure::of_sweep::energy_loss(&self.plan, &self.outcome);
-        Ok(picture(
-            &figure.map_err(|error| failure::of_report(&error))?,
-        ))
+    fn _figures(&self) -> PyResult<Vec<Figure>> {
+        let (plan, mut outcome) = (&self.plan, self.outcome.clone());
+        let loaded = match &self.records {
+            Records::Memory(_) => Ok(()),
+            Records::Folder(store) => report::load_drawn_cycles(store, plan, &mut outcome),
+        };
+        let figures = loaded.and_then(|()| figure::of_sweep::figures(plan, &outcome));
+        let (figures, _) = figures.map_err(|error| failure::of_report(&error))?;
+        Ok(Figure::all(figures, &plan.figures))
     }
 
     fn _summary(&self) -> PyResult<Vec<u8>> {
@@ -252,8 +235,8 @@ impl Sweep {
         let (py, this) = (slf.py(), slf.get());
         match &this.records {
             Records::Memory(memory) => {
-                let (shape, resolved) = (this.shape.as_ref(), resolved_text(&this.plan));
-                let packed = Packed::of(py, resolved, shape, &memory.to_bytes(), this.threads);
+                let (resolved, bytes) = (resolved_text(&this.plan), memory.to_bytes());
+                let packed = Packed::of(py, resolved, &this.tables, &bytes, this.threads);
                 reduced(slf.as_any(), packed)
             }
             Records::Folder(store) => reduced(slf.as_any(), store.folder()),
@@ -346,13 +329,11 @@ impl Sweep {
     }
 
     fn write(&self, folder: &Path, force: bool) -> PyResult<()> {
-        let opening = Opening {
-            plan: &self.plan,
-            indenter: |plan| &mut plan.base.contact.indenter,
+        let format = Format {
             resolved: resolved_text,
-            shape: self.shape.as_ref(),
+            read: sweep_file::plan,
         };
-        let (store, plan) = opening.open(folder, force)?;
+        let (store, plan) = format.open(&self.plan, &self.tables, (folder, force))?;
         let stored = |error| failure::of_store(&error);
         match &self.records {
             Records::Memory(memory) => memory.put_into(&store).map_err(stored)?,
@@ -388,7 +369,7 @@ const PEAK_CASES: usize = 5;
 fn swept(
     py: Python<'_>,
     (document, given): (&Document, &Given),
-    (records, shape): (Records, Option<Py<Shape>>),
+    (records, tables): (Records, Tables),
     (is_solved, threads): (bool, Option<NonZeroUsize>),
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Sweep> {
@@ -420,7 +401,7 @@ fn swept(
         plan: setup.plan().clone(),
         outcome,
         records,
-        shape,
+        tables,
         clock,
         threads,
         notes: count.notes.into_inner().unwrap_or_default(),

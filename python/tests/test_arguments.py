@@ -71,21 +71,29 @@ WRONG: list[tuple[Callable[[], object], list[str]]] = [
     (map_of([1.0, 2.0]), ["shape (2,)"]),
     (map_of(np.zeros((2, 2)), spacing=1e-6), ["2 x 2"]),
     (map_of(np.zeros((8, 8))), ["spacing"]),
-    (map_of(np.full((8, 8), np.nan), spacing=1e-6), ["row 0, column 0"]),
+    (lambda: cd.Profile([0.0, 1e-3, 1e-3], [0.0, 1e-6, 2e-6]), ["argument `file`", "row 3", "does not exceed"]),
+    (lambda: cd.Profile([1e-3, 2e-3], [0.0, 1e-6]), ["row 1", "not on the axis"]),
+    (lambda: cd.Profile([0.0, 1e-3], [0.0]), ["r_m 2, gap_m 1"]),
+    (lambda: cd.Profile([0.0, 1e-3]), ["Profile(r, gap)"]),
+    (lambda: cd.Profile({"r": [0.0, 1e-3]}), ["no column `gap_m`"]),
+    (lambda: cd.Sphere(0.01).gaps, ["no grid"]),
+    (lambda: PMMA.export("abacus"), ["abaqus, ansys"]),
+    (lambda: cd.schema("sweeps"), ["write one of sweep"]),
+    (map_of(np.full((8, 8), np.nan), spacing=1e-6), ["argument `heights`", "row 1, column 1"]),
     (map_of(-np.outer((np.arange(9.0) - 4) ** 2, np.ones(9)), spacing=1e-6), ["steeper", "height_unit"]),
     (map_of(np.outer(np.arange(8.0), np.ones(8)), spacing=1e-6), ["steeper", "level"]),
-    (lambda: cd.Asperities([(0, 0)]), ["(x, y, radius)", "(0, 0)"]),
-    (lambda: cd.Asperities([1e-3]), ["(x, y, radius)", "0.001"]),  # type: ignore[list-item]
-    (lambda: cd.Asperities(3), ["asperities are 3"]),  # type: ignore[arg-type]
+    (lambda: cd.Asperities([(0, 0)]), ["(center_x, center_y, radius, height)", "(0, 0)"]),
+    (lambda: cd.Asperities([1e-3]), ["(center_x, center_y, radius, height)", "0.001"]),  # type: ignore[list-item]
+    (lambda: cd.Asperities(3), ["asperities is 3"]),  # type: ignore[arg-type]
     (lambda: cd.sweep({}, SPHERE, mean=1.0, amplitude=0.5, angular_frequency=[1.0]), ["no material in {}"]),
     (lambda: cd.sweep(PMMA, {}, mean=1.0, amplitude=0.5, angular_frequency=[1.0]), ["no indenter in {}"]),
     (lambda: small_sweep(angular_frequency=[1.0, None]), ["angular_frequency: None"]),
     (lambda: cd.Material.relaxation(1e6, [(1e6, 1.0)], bulk_modulus=(1e9,)), ["bulk_modulus is (1000000000.0,)"]),  # type: ignore[arg-type]
-    (lambda: cd.Material.relaxation(1e6, [(1e6, 1.0)], bulk_modulus=(1e9, [1.0])), ["pairs of modulus and time"]),  # type: ignore[list-item]
+    (lambda: cd.Material.relaxation(1e6, [(1e6, 1.0)], bulk_modulus=(1e9, [1.0])), ["(modulus, time)"]),  # type: ignore[list-item]
     (lambda: cd.Material.library("pmna"), ['"pmma"']),
     (lambda: cd.Material.library("no such polymer"), ["the library has", "pvb"]),
-    (lambda: cd.Material.relaxation("1 MPa", {"1 MPa": "1 s"}, poisson_ratio=0.3), ["pairs of modulus and time"]),  # type: ignore[arg-type]
-    (lambda: cd.Material.creep(1e-9, [1e-9], poisson_ratio=0.3), ["pairs of compliance and time"]),  # type: ignore[list-item]
+    (lambda: cd.Material.relaxation("1 MPa", {"1 MPa": "1 s"}, poisson_ratio=0.3), ["(modulus, time)"]),  # type: ignore[arg-type]
+    (lambda: cd.Material.creep(1e-9, [1e-9], poisson_ratio=0.3), ["(compliance, time)"]),  # type: ignore[list-item]
     (lambda: cd.Material.relaxation("1 MPa", [("1 MPa", 0.0)], poisson_ratio=0.3), ["time"]),
     (lambda: cd.Material.relaxation("1 MPa", [], poisson_ratio=0.7), ["poisson_ratio"]),
     (lambda: cd.Material.from_toml("[material]\n"), ["library"]),
@@ -99,7 +107,7 @@ WRONG: list[tuple[Callable[[], object], list[str]]] = [
         ),
         ["storage_modulus 3"],
     ),
-    (lambda: PMMA.complex_modulus(1.0, modulus="bulk"), ["longitudinal", "shear"]),  # type: ignore[arg-type]
+    (lambda: PMMA.complex_modulus(1.0, modulus="bulk"), ["longitudinal", "shear"]),  # type: ignore[call-overload]
     (lambda: cd.simulate(PMMA, SPHERE, segments=[{"kind": "jump"}]), ["jump"]),
     (lambda: cd.simulate(PMMA, SPHERE, segments=[]), ["segments"]),
     (lambda: cd.analyse({"time": [0.0]}), ["no load and no approach"]),

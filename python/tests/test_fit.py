@@ -118,7 +118,7 @@ def test_a_column_that_is_not_read_and_a_loss_factor_that_contradicts_warn() -> 
     omega = np.logspace(-2, 2, 25)
     solid = cd.Material.relaxation("10 MPa", [("90 MPa", "1 s")], poisson_ratio=0.45)
     e = solid.complex_modulus(omega)
-    data = {"angular_frequency": omega, "storage_modulus": e.real, "loss_modulus": e.imag}
+    data: dict[str, Any] = {"angular_frequency": omega, "storage_modulus": e.real, "loss_modulus": e.imag}
     with pytest.warns(cd.ContactDmaWarning, match="not read: temprature"):
         cd.Material.from_dynamic({**data, "temprature": np.full(25, 300.0)}, poisson_ratio=0.45)
     with pytest.warns(cd.ContactDmaWarning, match="the loss modulus is taken"):

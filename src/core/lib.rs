@@ -22,8 +22,7 @@ pub mod sweep;
 /// The most frequently used types: `use contact_dma::prelude::*`.
 pub mod prelude {
     pub use crate::drive::{Control, HarmonicDrive, Segment, SegmentedDrive};
-    pub use crate::indenter::{Asperities, Cone, Ellipsoid, FlatPunch, HeightMap, Indenter};
-    pub use crate::indenter::{PowerLaw, Profile, Sphere};
+    pub use crate::indenter::*;
     pub use crate::material::{Creep, CreepBranch, Material, ModulusKind};
     pub use crate::material::{Relaxation, RelaxationBranch, library};
     pub use crate::simulation::Simulation;

@@ -67,8 +67,8 @@ pub(super) fn named(
     folder: &Path,
     problems: &Problems,
 ) -> Option<(String, Vec<u8>)> {
-    if let Some(text) = file.location.source().table(&file.value) {
-        return Some((file.value.clone(), text.as_bytes().to_vec()));
+    if let Some(bytes) = file.location.source().table(&file.value) {
+        return Some((file.value.clone(), bytes.to_vec()));
     }
     let path = file.path_from(folder);
     let name = path.display().to_string();

@@ -49,9 +49,11 @@ pub struct Source {
     text: String,
     /// Files come before flags, flags in the order given.
     rank: usize,
-    /// Tables that a file may name as files of its own, by name and text.
-    tables: Vec<(String, String)>,
+    tables: Tables,
 }
+
+/// Data that a document may name as files, by name and bytes.
+pub type Tables = Vec<(String, Arc<[u8]>)>;
 
 /// How the name of a table in memory begins, which was an argument of a call: its places are rows.
 const ARGUMENT: &str = "argument";
@@ -62,11 +64,11 @@ impl Source {
         Self::with_tables(name, text, Vec::new())
     }
 
-    /// The same, of a file that names these tables, by name and text, as if they were files.
+    /// The same, of a file that names these tables as if they were files.
     pub fn with_tables(
         name: impl Into<String>,
         text: impl Into<String>,
-        tables: Vec<(String, String)>,
+        tables: Tables,
     ) -> Arc<Self> {
         Arc::new(Self {
             name: name.into(),
@@ -101,10 +103,10 @@ impl Source {
         self.rank > 0
     }
 
-    /// The text of a table that was given under this name, in place of a file.
-    pub(super) fn table(&self, name: &str) -> Option<&str> {
+    /// The bytes of a table that was given under this name, in place of a file.
+    pub(super) fn table(&self, name: &str) -> Option<&[u8]> {
         let mut tables = self.tables.iter();
-        tables.find_map(|(known, text)| (known == name).then_some(text.as_str()))
+        tables.find_map(|(known, bytes)| (known == name).then_some(&**bytes))
     }
 
     /// What messages call a line, by its number from 1, of a table in memory; `None` of a file.

@@ -22,7 +22,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source};
+use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source, Tables};
 use super::file_kind;
 use tree::Table;
 
@@ -71,6 +71,16 @@ impl Located<String> {
             true => beside,
             false => target().unwrap_or(beside),
         }
+    }
+
+    /// The same as an absolute path, by which the file can be named anywhere, or the name of a table in memory; `None` where it is not
+    /// UTF-8.
+    pub(super) fn absolute_from(&self, folder: &Path) -> Option<String> {
+        if self.location.source().table(&self.value).is_some() {
+            return Some(self.value.clone());
+        }
+        let path = std::path::absolute(self.path_from(folder)).ok()?;
+        path.to_str().map(str::to_owned)
     }
 
     /// Where [`Located::path_from`] starts from, for messages.
@@ -143,16 +153,12 @@ impl Document {
         Self::with_tables(name, text, Vec::new())
     }
 
-    /// The same of a text that names tables, given by name and text, where it would name data files. A name that begins with
+    /// The same of a text that names tables, given by name and bytes, where it would name data files. A name that begins with
     /// `argument` counts rows in messages.
     ///
     /// # Errors
     /// As [`Document::parse`].
-    pub fn with_tables(
-        name: &str,
-        text: &str,
-        tables: Vec<(String, String)>,
-    ) -> Result<Self, Diagnostics> {
+    pub fn with_tables(name: &str, text: &str, tables: Tables) -> Result<Self, Diagnostics> {
         if text.len() > MAX_BYTES {
             return Err(too_long(name).into());
         }

@@ -2,15 +2,14 @@
 
 use std::sync::Arc;
 
-use super::diagnostic::{Diagnostic, Diagnostics};
+use super::diagnostic::Diagnostics;
 use super::document::Document;
 use super::document::reader::TableReader;
-use super::field_file::Field;
 use super::keys;
 pub use super::material_dynamic::DynamicFit;
 use super::material_table::DirectSum;
 use super::{indenter_block, material_block};
-use crate::indenter::{HeightMap, Indenter};
+use crate::indenter::Indenter;
 use crate::simulation::body_material::BodyMaterial;
 
 /// Values for blocks that a document leaves out; what it has counts.
@@ -60,23 +59,6 @@ pub fn indenter(document: &Document) -> Result<Arc<dyn Indenter>, Diagnostics> {
     document.read_whole(|root| Given::default().indenter(root))
 }
 
-/// A height map of these values, in the unit and with the spacing that the document says: its `[indenter]` block is that of a map
-/// without `file`. The map is held to what one from a file is held to.
-///
-/// # Errors
-/// Everything that is wrong with block and values.
-pub fn height_map(document: &Document, field: Field) -> Result<HeightMap, Diagnostics> {
-    if let Some(at) = field.values_m.iter().position(|z| !z.is_finite()) {
-        let (row, column) = (at / field.cells_x.max(1), at % field.cells_x.max(1));
-        let message = format!("the height in row {row}, column {column} is not finite");
-        let problem = Diagnostic::new(message);
-        return Err(problem
-            .help("fill holes before, by interpolation say")
-            .into());
-    }
-    document.read_whole(|root| indenter_block::map_of(root.table(&keys::INDENTER)?, field))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -117,30 +99,30 @@ mod tests {
     }
 
     #[test]
-    fn a_map_of_values_is_held_to_what_one_of_a_file_is() {
-        let block = document("[indenter]\nshape = \"height-map\"\nspacing = 1e-6\n");
-        let field = |scale: f64, hole: f64| Field {
-            cells_x: 9,
-            cells_y: 7,
-            values_m: (0..63)
-                .map(|at| {
-                    let (x, y) = ((at % 9) as f64 - 4.0, (at / 9) as f64 - 3.0);
-                    if at == 12 {
-                        hole
-                    } else {
-                        -scale * (x * x + y * y)
-                    }
-                })
-                .collect(),
-            spacing_m: None,
+    fn a_map_in_memory_is_the_map_of_its_file_under_a_name_of_its_own() {
+        let read = |scale: f64, hole: f64| {
+            let height = |at: usize| {
+                let (x, y) = ((at % 9) as f64 - 4.0, (at / 9) as f64 - 3.0);
+                if at == 12 {
+                    hole
+                } else {
+                    -scale * (x * x + y * y)
+                }
+            };
+            let heights: Vec<f64> = (0..63).map(height).collect();
+            let bytes = crate::report::npy::matrix(7, 9, &heights);
+            let block = "[indenter]\nshape = \"height-map\"\nspacing = 1e-6\nfile = \"array\"\noffset = [1e-6, 0.0]\n";
+            let tables = vec![("array".to_owned(), bytes.into())];
+            indenter(&Document::with_tables("call", block, tables).unwrap())
         };
-        let map = height_map(&block, field(1e-9, 0.0)).unwrap();
-        assert_eq!(map.cells(), (9, 7));
-        for (field, word) in [
-            (field(1e-3, -0.01), "steeper"),
-            (field(1e-9, f64::NAN), "row 1, column 3"),
+        let map = read(1e-9, -5e-9).unwrap();
+        assert!((map.gap_m(5e-6, 3e-6) - 25e-9).abs() < 1e-20);
+        assert_eq!(map.parameters().first().unwrap().toml(), "file = \"array\"");
+        for (map, word) in [
+            (read(1e-3, -0.01), "steeper"),
+            (read(1e-9, f64::NAN), "row 2, column 4"),
         ] {
-            let refused = height_map(&block, field).unwrap_err().to_string();
+            let refused = map.unwrap_err().to_string();
             assert!(refused.contains(word), "{refused}");
         }
     }
@@ -151,7 +133,7 @@ mod tests {
         let read = |third: &str| {
             let head = "angular_frequency_rad_per_s,storage_modulus_pa,loss_modulus_pa\n1,1e9,1e8\n2,1.1e9,1e8\n";
             let table = format!("{head}4,{third},1e8\n8,1.3e9,1e8\n");
-            let tables = vec![("argument `file`".to_owned(), table)];
+            let tables = vec![("argument `file`".to_owned(), table.into_bytes().into())];
             material_with_fit(&Document::with_tables("call", block, tables).unwrap())
         };
         let (_, fit) = read("1.2e9").unwrap();

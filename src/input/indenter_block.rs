@@ -1,6 +1,5 @@
 //! The `[indenter]` block: what each shape is made of, and how it is read.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use super::data_file;
@@ -103,26 +102,6 @@ pub(super) fn read(table: TableReader<'_>) -> Made {
     }
 }
 
-/// A height map of values in memory, which are called by their place; the table has the other keys of the block.
-pub(super) fn map_of(table: TableReader<'_>, field: Field) -> Option<HeightMap> {
-    let place = Located {
-        value: String::new(),
-        path: "indenter".to_owned(),
-        location: table.as_ref().clone(),
-    };
-    let mut block = Block(table);
-    block.0.value::<Shape>(&SHAPE)?;
-    let named = Named {
-        place,
-        name: "array".to_owned(),
-        source: Vec::new(),
-    };
-    let (place, map) = block.map(|_| Some((field, named)))?;
-    let problems = block.0.problems();
-    block.0.finish();
-    problems.accept(&place, map)
-}
-
 /// What the indenter of a document is made of, where it is not rigid; `None` where a problem was reported.
 pub(super) fn material(root: &mut TableReader<'_>) -> Option<Option<Located<Material>>> {
     match root.parsed(&keys::INDENTER) {
@@ -211,7 +190,6 @@ impl Block<'_> {
         let sha256: Option<Option<Located<String>>> = self.0.read_if(&SHA256);
         let (place, sha256) = (file?, sha256?);
         let problems = self.0.problems();
-        let path = place.path_from(self.0.folder());
         let (name, bytes) = data_file::named(&place, self.0.folder(), problems)?;
         let hash = resolved::hash_of_bytes(&bytes);
         if let Some(expected) = sha256
@@ -225,13 +203,12 @@ impl Block<'_> {
                 .help("bring the old file back, or remove `sha256` to use the new one");
             return None;
         }
-        let absolute = std::path::absolute(&path).ok();
-        let Some(absolute) = absolute.as_deref().and_then(Path::to_str) else {
+        let Some(absolute) = place.absolute_from(self.0.folder()) else {
             let message = format!("the path of `{name}` is not UTF-8, and cannot be written down");
             problems.at(&place, message).help("rename the folder");
             return None;
         };
-        let source = data_file(absolute, &hash);
+        let source = data_file(&absolute, &hash);
         let made = data_file::accepted(make(&name, &bytes), &place, problems)?;
         let named = Named {
             place,

@@ -7,15 +7,16 @@ use serde::Serialize;
 use serde_json::{Value as Json, json};
 
 use super::document::kind::json_of;
-use super::keys::{self, FileKind};
+use super::key_reference::ways;
+use super::keys::{self, FileKind, material::NAME};
 use crate::identify::IdentifyPlan;
 use crate::material::ModulusKind;
 use crate::quantity::block::{Block, Word};
 use crate::quantity::key::{Key, Kind};
 use crate::quantity::rows::{Branch, Rows};
 use crate::sweep::plan::CyclePlan;
-use stubs::annotation;
 pub use stubs::stubs;
+use stubs::{annotation, attribute};
 
 /// A function, a constructor of a material, or the arguments of a class of indenters.
 #[derive(Serialize)]
@@ -50,6 +51,12 @@ pub struct Argument {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub default: Option<Json>,
     pub means: String,
+    /// Of a list of tables that rows stand for: their keys, each with the number of its values, and whether it must be there.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rows: Vec<(&'static str, usize, bool)>,
+    /// The type of what an indenter has under the key.
+    #[serde(skip)]
+    pub attribute: &'static str,
 }
 
 /// Every call.
@@ -71,22 +78,31 @@ pub fn calls() -> Vec<Call> {
             &["identify", "material", "drive", "cycle", "solver"],
         ),
     ];
-    calls.extend(FORMS.iter().map(|form| material(*form)));
-    calls.extend(SHAPES.iter().map(|shape| indenter(*shape)));
+    let forms = ways("material").into_iter();
+    let forms = forms.filter(|(form, _)| deciding(form).is_some());
+    calls.extend(forms.map(|(form, about)| material(form, about)));
+    let shapes = ways("indenter").into_iter();
+    calls.extend(shapes.map(|(shape, about)| indenter(shape, about)));
     calls
 }
 
-/// Forms of material whose arguments are their keys, those that may be given by their places, and those that are no keys: data as arrays.
-const FORMS: [(&str, &[&str], &[Own]); 9] = [
-    ("elastic", &["modulus"], &[]),
-    ("relaxation", &["equilibrium", "branches"], &[]),
-    ("creep", &["instantaneous", "branches"], &[]),
-    ("maxwell", &["modulus", "time"], &[]),
-    ("zener", &["spring", "kelvin_spring", "time"], &[]),
-    ("kelvin_voigt", &["spring", "time"], &[]),
-    ("fractional", &["model"], &[]),
+/// Constructors of materials, as the guide lists them.
+pub fn constructors() -> Vec<String> {
+    let calls = calls()
+        .into_iter()
+        .filter(|call| call.of == CallOf::Material);
+    calls.map(|call| call.name).collect()
+}
+
+/// Required keys of a form or a shape may be given by their places; of more than so many only the first.
+const MOST_BY_PLACE: usize = 3;
+
+/// Forms and shapes that Python also takes data for as arrays: what may be given by its place, and these arguments.
+const WITH_DATA: [(&str, &[&str], &[Own]); 4] = [
     ("table", &["time", "values"], &SAMPLES),
     ("dynamic", &["file"], &DYNAMIC),
+    ("profile", &["file", "gap"], &PROFILE),
+    ("height-map", &["heights", "spacing"], &HEIGHTS),
 ];
 
 /// Keys that name the data of a form; in Python these are arguments that are no keys.
@@ -136,25 +152,24 @@ const DYNAMIC: [Own; 7] = [
     ),
 ];
 
-/// The same of shapes.
-const SHAPES: [(&str, &[&str], &[Own]); 8] = [
-    ("sphere", &["radius"], &[]),
-    ("cone", &["half_angle"], &[]),
-    ("flat-punch", &["radius"], &[]),
-    ("ellipsoid", &["radius_x", "radius_y"], &[]),
-    ("power-law", &["exponent"], &[]),
-    ("profile", &["file"], &[PROFILE]),
-    ("height-map", &["heights", "spacing"], &[HEIGHTS]),
-    ("rough", &["cells"], &[]),
+const PROFILE: [Own; 2] = [
+    (
+        "file",
+        "str | PathLike[str] | TableLike | ArrayLike",
+        "A file with these columns, or a table of them, such as a data frame; or radii (m) from the axis outwards.",
+    ),
+    (
+        "gap",
+        "ArrayLike | None",
+        "Gaps (m) at these radii, where no file is given.",
+    ),
 ];
 
-const PROFILE: Own = ("file", "str | PathLike[str]", "A file with these columns.");
-const HEIGHTS: Own = (
+const HEIGHTS: [Own; 1] = [(
     "heights",
     "ArrayLike | PathLike[str]",
-    "An array of shape (cells along y, cells along x), first row at the smallest y, which is copied once, into the memory of the library; \
-     or a file (CSV, ``.npy``).",
-);
+    "An array of shape (cells along y, cells along x), first row at the smallest y; or a file (CSV, ``.npy``).",
+)];
 
 /// Arguments that are no keys, or tables whose form in Python is another: name, type, meaning.
 type Own = (&'static str, &'static str, &'static str);
@@ -228,11 +243,16 @@ const AXES: Own = (
     "Other axes than the frequency, such as `{\"indenter.radius\": [\"5 mm\", \"10 mm\"], \"drive.amplitude\": [1.0, 2.0]}`.",
 );
 
-/// Arguments of materials that stand for tables, in the form that they have in Python: name, type, meaning.
-const AS_PYTHON: [Own; 2] = [
+/// Arguments of materials and indenters that stand for tables, in the form that they have in Python: name, type, meaning.
+const AS_PYTHON: [Own; 3] = [
+    (
+        "asperities",
+        "Sequence[Sequence[Quantity] | Mapping[str, Any]]",
+        "For each `(x, y, radius)` or `(x, y, radius, height)` (m), or a table of its keys `center`, `radius`, `height`.",
+    ),
     (
         "branches",
-        "Sequence[tuple[Quantity, Quantity]]",
+        "Sequence[tuple[Quantity, Quantity] | Mapping[str, Any]]",
         "The branches of the series: pairs of modulus (Pa) and relaxation time (s), of a creep series of compliance (1/Pa) and retardation \
          time (s).",
     ),
@@ -252,6 +272,8 @@ fn own((name, annotation, means): Own) -> Argument {
         annotation: annotation.to_owned(),
         default: annotation.ends_with("None").then_some(Json::Null),
         means: means.to_owned(),
+        rows: Vec::new(),
+        attribute: "",
     }
 }
 
@@ -272,7 +294,25 @@ fn of_key(path: &str, key: &Key) -> Argument {
         annotation: annotation(&key.kind),
         default,
         means: format!("{} {}.", key.means(), capital(&key.kind.expected())),
+        rows: Vec::new(),
+        attribute: attribute(&key.kind),
     }
+}
+
+/// The keys of the tables in a list, for rows in place of these.
+fn rows_of(kind: &Kind) -> Vec<(&'static str, usize, bool)> {
+    let Kind::Tables(rows, ..) = kind else {
+        return Vec::new();
+    };
+    let row = |key: &Key| match &key.kind {
+        Kind::Number(_) => Some((key.name, 1, key.is_required())),
+        Kind::Numbers(_, entries) if *entries.number.end() == 2 => {
+            Some((key.name, 2, key.is_required()))
+        }
+        _ => None,
+    };
+    let rows: Option<Vec<_>> = rows.all().into_iter().map(row).collect();
+    rows.unwrap_or_default()
 }
 
 /// Makes an argument one that may be left out.
@@ -354,7 +394,7 @@ fn model_defaults(arguments: &mut [Argument]) {
 }
 
 /// The ways to fill a table that a key, or a word under one, decides for.
-fn ways(table: &str, decides: &str) -> Vec<Branch> {
+fn branches(table: &str, decides: &str) -> Vec<Branch> {
     let branches = keys::tables_at(table).into_iter().map(Rows::branches);
     let of = |branch: &Branch| {
         let first = branch.decided_by.first();
@@ -364,6 +404,19 @@ fn ways(table: &str, decides: &str) -> Vec<Branch> {
     branches.max_by_key(Vec::len).unwrap_or_default()
 }
 
+/// The key of a form of material that is a table or a name.
+fn deciding(form: &str) -> Option<&'static Key> {
+    let way = branches("material", form).into_iter().next()?;
+    let key = way.keys.first().copied()?;
+    matches!(key.kind, Kind::Table(_) | Kind::Text).then_some(key)
+}
+
+/// What Python takes as data of a form or a shape.
+fn data_of(name: &str) -> (&'static [&'static str], &'static [Own]) {
+    let known = WITH_DATA.iter().find(|(known, ..)| *known == name);
+    known.map_or((&[], &[]), |(_, places, data)| (*places, *data))
+}
+
 /// The keys that a table may have whatever else it has.
 fn own_keys_of(table: &str) -> Vec<&'static Key> {
     let rows = keys::tables_at(table).into_iter().next();
@@ -371,26 +424,24 @@ fn own_keys_of(table: &str) -> Vec<&'static Key> {
 }
 
 /// A constructor of a material: the keys of its form, and those beside it.
-fn material((form, places, data): (&'static str, &[&str], &[Own])) -> Call {
-    let ways = ways("material", form);
+fn material(form: &'static str, about: &'static str) -> Call {
+    let ways = branches("material", form);
     let everywhere = |row: &&Key| {
         let has = |way: &Branch| way.keys.iter().any(|other| other.name == row.name);
         ways.iter().all(has)
     };
-    let path = format!("material.{form}");
+    let (path, data) = (format!("material.{form}"), data_of(form));
     let rows = keys::tables_at(&path).into_iter().next();
-    let own_keys = rows.map(Rows::all).unwrap_or_default().into_iter();
-    let own_keys = own_keys.filter(|row| data.is_empty() || !DATA_KEYS.contains(&row.name));
-    let mut arguments: Vec<Argument> = data.iter().map(|data| own(*data)).collect();
-    arguments.extend(own_keys.map(|row| of_key(&path, row)));
+    let mut arguments = arguments_of(&path, rows.map(Rows::all).unwrap_or_default(), data);
+    let name = deciding(form).filter(|key| matches!(key.kind, Kind::Text));
+    arguments.extend(name.map(|key| Argument {
+        name: NAME.name,
+        ..of_key("material", key)
+    }));
+    let own = required(&arguments);
     let mut beside = own_keys_of("material");
-    let mut about = "";
     beside.extend(ways.iter().flat_map(|way| way.keys.iter().copied()));
-    for row in beside {
-        if row.name == form {
-            about = row.means();
-            continue;
-        }
+    for row in beside.into_iter().filter(|row| row.name != form) {
         let mut argument = of_key("material", row);
         if form == "dynamic" && argument.name == "temperature" {
             argument.name = "temperature_of_sweep";
@@ -402,53 +453,84 @@ fn material((form, places, data): (&'static str, &[&str], &[Own])) -> Call {
             });
         }
     }
-    for argument in arguments.iter_mut().filter(|_| form != "dynamic") {
-        if let Some((_, annotation, means)) = AS_PYTHON.iter().find(|own| own.0 == argument.name) {
-            (argument.annotation, argument.means) = ((*annotation).to_owned(), (*means).to_owned());
-        }
-    }
-    let name = if form == "dynamic" {
-        "from_dynamic"
-    } else {
-        form
+    let name = match form {
+        "dynamic" => "from_dynamic",
+        form => form,
     };
+    let named = (name.to_owned(), CallOf::Material, about);
+    call(named, (data.0, own), arguments)
+}
+
+/// The arguments of a class of indenters: the keys of its shape, and where it stands.
+fn indenter(shape: &'static str, about: &'static str) -> Call {
+    let ways = branches("indenter", shape);
+    let (data, keys) = (
+        data_of(shape),
+        ways.iter().flat_map(|way| way.keys.iter().copied()),
+    );
+    let mut arguments = arguments_of("indenter", keys.collect(), data);
+    let own = required(&arguments);
+    let beside = own_keys_of("indenter").into_iter();
+    let beside = beside.filter(|row| row.name == "offset");
+    arguments.extend(beside.map(|row| of_key("indenter", row)));
     call(
-        (name.to_owned(), CallOf::Material, about),
-        places,
+        (class(shape), CallOf::Indenter, about),
+        (data.0, own),
         arguments,
     )
 }
 
-/// The arguments of a class of indenters: the keys of its shape, and where it stands.
-fn indenter((shape, places, data): (&'static str, &[&str], &[Own])) -> Call {
-    let ways = ways("indenter", shape);
-    let about = ways.first().map_or("", |way| way.means.trim());
-    let own_keys = ways.iter().flat_map(|way| way.keys.iter().copied());
-    let own_keys = own_keys.filter(|key| data.is_empty() || !DATA_KEYS.contains(&key.name));
-    let beside = own_keys_of("indenter").into_iter();
-    let beside = beside.filter(|row| row.name == "offset");
-    let keys = own_keys.chain(beside).map(|row| of_key("indenter", row));
-    let arguments = data.iter().map(|data| own(*data)).chain(keys);
-    call(
-        (class(shape), CallOf::Indenter, about),
-        places,
-        arguments.collect(),
-    )
+/// Arguments for keys, lists of tables in the form that they have in Python, behind those for data, which stand in place of some.
+fn arguments_of(
+    path: &str,
+    keys: Vec<&'static Key>,
+    (_, data): (&[&str], &[Own]),
+) -> Vec<Argument> {
+    let keys = keys.into_iter();
+    let keys = keys.filter(|key| data.is_empty() || !DATA_KEYS.contains(&key.name));
+    let arguments = keys.map(|key| Argument {
+        rows: rows_of(&key.kind),
+        ..of_key(path, key)
+    });
+    data.iter()
+        .map(|data| own(*data))
+        .chain(arguments)
+        .collect()
+}
+
+/// Names of the arguments that must be there.
+fn required(arguments: &[Argument]) -> Vec<&'static str> {
+    let required = arguments
+        .iter()
+        .filter(|argument| argument.default.is_none());
+    required.map(|argument| argument.name).collect()
 }
 
 /// A call with these arguments first, the others behind them in their order.
 fn call(
     (name, of, about): (String, CallOf, &'static str),
-    places: &[&str],
-    arguments: Vec<Argument>,
+    (places, required): (&[&'static str], Vec<&'static str>),
+    mut arguments: Vec<Argument>,
 ) -> Call {
+    let count = match required.len() {
+        count if count > MOST_BY_PLACE => 1,
+        count => count,
+    };
+    let by_place = required.get(..count).filter(|_| places.is_empty());
+    let places = by_place.unwrap_or(places);
     let place = |argument: &Argument| {
         let place = places.iter().position(|place| *place == argument.name);
         place.unwrap_or(places.len())
     };
-    let mut arguments = arguments;
     arguments.sort_by_key(place);
     for argument in &mut arguments {
+        let is_table = argument.annotation.contains("Mapping");
+        let as_python = AS_PYTHON
+            .iter()
+            .find(|own| is_table && own.0 == argument.name);
+        if let Some((_, annotation, means)) = as_python {
+            (argument.annotation, argument.means) = ((*annotation).to_owned(), (*means).to_owned());
+        }
         if argument.default == Some(Json::Null) {
             or_none(&mut argument.annotation);
         }

@@ -155,6 +155,12 @@ impl KeptFigures {
         self.figures.iter().map(|figure| &*figure.name).collect()
     }
 
+    /// Their pictures, by name.
+    pub fn into_pictures(self) -> impl Iterator<Item = (String, Picture)> {
+        let figures = self.figures.into_iter();
+        figures.map(|figure| (figure.name, figure.picture))
+    }
+
     /// Files of the figures as asked: pictures, captions, data and the page. Returns what could not be drawn and why.
     ///
     /// # Errors

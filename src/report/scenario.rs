@@ -2,9 +2,9 @@
 
 use super::ReportError;
 use crate::report::caption::Setting;
-use crate::report::figure;
 use crate::report::figure::press::Press;
 use crate::report::figure::units::Units;
+use crate::report::figure::{self, Figure};
 use crate::report::page::{self, Pictures};
 use crate::report::scenario_tables::{self, History};
 use crate::simulation::scenario::ScenarioPlan;
@@ -54,28 +54,34 @@ pub fn write_tables(
     Ok(Vec::new())
 }
 
+/// The figures but for the maps of fields, and what was left out and why.
+pub fn lines(History { outcome, profiles }: &History, units: &Units) -> (Vec<Figure>, Vec<String>) {
+    let (mut figures, mut left_out) = (Vec::new(), Vec::new());
+    match figure::history::figure(outcome, units) {
+        Ok(figure) => figures.push(figure),
+        Err(why) => left_out.push(why.to_owned()),
+    }
+    figures.extend(figure::cycle_losses::figure(outcome, units));
+    let (profiles, not_drawn) = figure::profiles::figure(profiles, units);
+    figures.extend(profiles);
+    left_out.extend(not_drawn);
+    (figures, left_out)
+}
+
 fn figures(
     store: &Store,
     plan: &ScenarioPlan,
-    History { outcome, profiles }: &History,
+    history: &History,
     pictures: &Pictures,
 ) -> Result<Vec<String>, ReportError> {
-    let units = Units::of_scenario(plan)?;
+    let (outcome, units) = (&history.outcome, Units::of_scenario(plan)?);
     let setting = Setting::of_scenario(plan, outcome, units.sentence());
     let press = Press {
         plan: &plan.figures,
         write: &|name, bytes| store.write(name, bytes),
         pictures,
     };
-    let (mut figures, mut left_out) = (Vec::new(), Vec::new());
-    match figure::history::figure(outcome, &units) {
-        Ok(figure) => figures.push(figure),
-        Err(why) => left_out.push(why.to_owned()),
-    }
-    figures.extend(figure::cycle_losses::figure(outcome, &units));
-    let (profiles, not_drawn) = figure::profiles::figure(profiles, &units);
-    figures.extend(profiles);
-    left_out.extend(not_drawn);
+    let (figures, mut left_out) = lines(history, &units);
     press.figures(&figures, &setting)?;
     let maps = figure::pressure_map::write(&outcome.fields, &press, (&units, &setting))?;
     left_out.extend(maps);

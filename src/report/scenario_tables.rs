@@ -242,7 +242,10 @@ struct Warned {
 }
 
 /// `summary.json`.
-fn summary(
+///
+/// # Errors
+/// [`ReportError`] where it cannot be written as JSON.
+pub fn summary(
     plan: &ScenarioPlan,
     outcome: &SimulationOutcome,
     scenario_hash: &str,

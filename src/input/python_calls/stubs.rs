@@ -31,6 +31,20 @@ pub(super) fn annotation(kind: &Kind) -> String {
     }
 }
 
+/// The type of what an indenter has under a key of this kind, in SI units.
+pub(super) fn attribute(kind: &Kind) -> &'static str {
+    match kind {
+        Kind::Flag => "bool",
+        Kind::Integer(_) => "int",
+        Kind::Number(_) => "float",
+        Kind::Text | Kind::Word(_) => "str",
+        Kind::Numbers(..) => "tuple[float, ...]",
+        Kind::Texts(_) | Kind::Words(..) => "tuple[str, ...]",
+        Kind::Tables(..) => "tuple[dict[str, Any], ...]",
+        Kind::Points(..) | Kind::Table(_) | Kind::Axes(_) | Kind::Either(..) => "Any",
+    }
+}
+
 /// Words as Python writes them.
 fn quoted(words: &[&str]) -> String {
     let words: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
@@ -59,11 +73,25 @@ pub fn stubs() -> String {
         text.push_str("    @classmethod\n");
         write_stub(call, ("    ", "cls", "Material"), &mut text);
     }
-    for call in shapes {
-        let _ = write!(text, "\nclass {}:\n", call.name);
+    for call in &shapes {
+        let _ = write!(text, "\nclass {}(Indenter):\n", call.name);
         let init = ("    ", "self", "None");
         write_stub(call, init, &mut text);
+        for argument in call.arguments.iter().filter(|a| !a.key.is_empty()) {
+            let (name, kind) = (argument.name, argument.attribute);
+            let none = match argument.default {
+                Some(Json::Null) => " | None",
+                _ => "",
+            };
+            let _ = writeln!(
+                text,
+                "    @property\n    def {name}(self) -> {kind}{none}: ..."
+            );
+        }
     }
+    let exported = calls.iter().filter(|call| call.of != CallOf::Material);
+    let exported: Vec<&str> = exported.map(|call| call.name.as_str()).collect();
+    let _ = writeln!(text, "\n__all__ = [{}]", quoted(&exported));
     text
 }
 
@@ -76,10 +104,10 @@ from typing import Any, Literal, TypeVar
 from numpy.typing import ArrayLike, NDArray
 
 from ._result import Progress
-from ._toml import TableLike
+from ._toml import Quantity, TableLike
 from .histories import HistoryResult
 from .indenters import Indenter
-from .materials import BulkModulus, Material, Quantity
+from .materials import BulkModulus, Material
 from .measurements import IdentifiedMaterial
 from .sweeps import SweepResult
 

@@ -41,17 +41,6 @@ pub fn figures(
     Ok((figures, left_out))
 }
 
-/// The first of them, the energy loss, also where no case has a result.
-///
-/// # Errors
-/// As [`figures`].
-pub fn energy_loss(plan: &SweepPlan, outcome: &Outcome) -> Result<Figure, ReportError> {
-    Ok(match line::along(plan, outcome, 0) {
-        None => energy_loss::figure(&SweepCurves::of(plan, outcome)?),
-        Some(line) => line.say(energy_loss::figure(&line.curves()?)),
-    })
-}
-
 fn said(line: &Line, drawn: Vec<Drawn>) -> Vec<Drawn> {
     let said = |drawn: Drawn| drawn.map(|figure| line.say(figure));
     drawn.into_iter().map(said).collect()

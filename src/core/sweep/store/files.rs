@@ -56,8 +56,28 @@ const TABLES: [&str; 10] = [
 pub(super) const NUMBERED: [&str; 6] =
     ["loops", "pressures", "work", "cycles", "profiles", "fields"];
 
-/// The height map of a result that was saved from arrays: its plan names it.
-pub const HEIGHT_MAP: &str = "height-map.npy";
+/// Names of the files that a result which was made of arrays has of these: height maps and profiles, which its plan names.
+const OF_ARRAYS: [(&str, &str); 2] = [("height-map", ".npy"), ("profile", ".csv")];
+
+/// The file of an array, a map or a table, behind so many others.
+pub fn of_array(is_map: bool, before: usize) -> String {
+    let [map, profile] = OF_ARRAYS;
+    let (stem, ending) = if is_map { map } else { profile };
+    match before {
+        0 => format!("{stem}{ending}"),
+        before => format!("{stem}-{}{ending}", before + 1),
+    }
+}
+
+/// Whether a file is one of these.
+fn is_of_array(name: &str) -> bool {
+    OF_ARRAYS.iter().any(|(stem, ending)| {
+        let number = name
+            .strip_prefix(stem)
+            .and_then(|rest| rest.strip_suffix(ending));
+        number.is_some_and(|number| number.is_empty() || number.starts_with('-'))
+    })
+}
 
 /// The endings of a picture in every form.
 pub const PICTURES: [&str; 4] = [".svg", ".pdf", ".png", "@2x.png"];
@@ -101,12 +121,6 @@ pub fn is_result(name: &str) -> bool {
 /// Whether a file is made anew of records and plan whenever tables and figures are.
 pub(super) fn is_drawn_again(name: &str) -> bool {
     let first = name.split('/').next().unwrap_or_default();
-    let kept = [
-        records::FOLDER,
-        checkpoint_file::FOLDER,
-        RUN,
-        RESOLVED,
-        HEIGHT_MAP,
-    ];
-    !kept.contains(&first) && !is_run_of_shard(name)
+    let kept = [records::FOLDER, checkpoint_file::FOLDER, RUN, RESOLVED];
+    !(kept.contains(&first) || is_run_of_shard(name) || is_of_array(name))
 }
