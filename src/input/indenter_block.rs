@@ -9,7 +9,6 @@ use super::document::block::read_from;
 use super::document::kind::Describe;
 use super::document::reader::TableReader;
 use super::field_file;
-use super::field_file::Field;
 use super::keys;
 use super::keys::material::INDENTER_MATERIAL as INDENTER_MATERIAL_KEYS;
 use super::map_values::MapReading;
@@ -225,15 +224,6 @@ impl Block<'_> {
     }
 
     fn height_map(&mut self) -> Made {
-        let (place, map) = self.map(|block| block.of_file(field_file::field))?;
-        self.made(&place, map)
-    }
-
-    /// A map of these data, and where they are named.
-    fn map(
-        &mut self,
-        data: impl FnOnce(&mut Self) -> Option<(Field, Named)>,
-    ) -> Option<(Located<String>, Result<HeightMap, IndenterError>)> {
         let problems = self.0.problems();
         let quantity = self.0.value(&MAP_QUANTITY);
         let unit = self.0.chosen(&HEIGHT_UNIT, &HEIGHT_UNITS);
@@ -242,7 +232,7 @@ impl Block<'_> {
         let given = self.0.key_location(&MAP_SPACING);
         let unit_given = self.0.key_location(&HEIGHT_UNIT);
         let spacing: Option<Option<Vec<f64>>> = self.0.value(&MAP_SPACING);
-        let data = data(self);
+        let data = self.of_file(field_file::field);
         let (mut field, named) = data?;
         let spacing_m = match (field.spacing_m, spacing?) {
             (Some(spacing_m), None) => spacing_m,
@@ -279,16 +269,13 @@ impl Block<'_> {
             report.because(because).help(help);
             return None;
         }
-        let map = match named.source.is_empty() {
-            true => map,
-            false => map.map(|map| {
-                let mut parameters = named.source;
-                let own = map.parameters().into_iter();
-                parameters.extend(own.filter_map(|own| reading.parameter(own)));
-                map.made_from(HeightMap::SHAPE, parameters)
-            }),
-        };
-        Some((named.place, map))
+        let map = map.map(|map| {
+            let mut parameters = named.source;
+            let own = map.parameters().into_iter();
+            parameters.extend(own.filter_map(|own| reading.parameter(own)));
+            map.made_from(HeightMap::SHAPE, parameters)
+        });
+        self.made(&named.place, map)
     }
 }
 
@@ -298,6 +285,6 @@ struct Named {
     place: Located<String>,
     /// What messages call them.
     name: String,
-    /// The settings that name the file, where they are from one.
+    /// The settings that name the file.
     source: Vec<Setting>,
 }
