@@ -99,7 +99,7 @@ def dynamic_columns(given: _toml.TableLike) -> dict[str, Any]:
     lacks_loss = "loss_modulus" not in own and "tan_delta" not in own
     if ("angular_frequency" in own) == ("frequency" in own) or "storage_modulus" not in own or lacks_loss:
         raise ValueError("from_dynamic needs a file, or angular_frequency or frequency, storage_modulus, and loss_modulus or tan_delta")
-    _refuse_lengths(numbers)
+    refuse_lengths(numbers)
     tan_delta = numbers.pop("tan_delta", None)
     if tan_delta is not None:
         of_tangent = numbers["storage_modulus"] * tan_delta
@@ -115,16 +115,17 @@ def dynamic_columns(given: _toml.TableLike) -> dict[str, Any]:
     return {name + names[units[name]]: values for name, values in numbers.items()} | columns
 
 
-def _refuse_lengths(columns: Mapping[str, Floats]) -> None:
+def refuse_lengths(columns: Mapping[str, Floats], of: str = "") -> None:
+    """Refuses columns of which one has more rows than another."""
     if len({len(array) for array in columns.values()}) > 1:
         counts = ", ".join(f"{name} {len(array)}" for name, array in columns.items())
-        raise ValueError(f"columns must have as many rows as one another: {counts}")
+        raise ValueError(f"{of}columns must have as many rows as one another: {counts}")
 
 
 def table_text(columns: Mapping[str, Any]) -> str:
     """Columns as the text of a table: numbers without losing a bit, those of names with an SI unit in it, cells empty where one is NaN."""
     arrays = {name: _toml.si(values, _toml.unit_of(name), name).reshape(-1) for name, values in columns.items()}
-    _refuse_lengths(arrays)
+    refuse_lengths(arrays)
     text = io.StringIO()
     writer = csv.writer(text)
     writer.writerow(arrays)

@@ -16,7 +16,7 @@ from . import _contact_dma as _core
 from ._contact_dma import MeasuredCycle as MeasuredCycle
 from ._result import Columns, Figure, Result, Table, failures, table, warn
 from ._sources import Source, source_of_values, thread_count, warn_without_effect
-from .fits import table_text
+from .fits import refuse_lengths, table_text
 from .indenters import Indenter
 from ._toml import Quantity
 from .materials import Material, Prony
@@ -107,9 +107,7 @@ def _record(record: Record, index: int) -> Any:
         if column.ndim != 1:
             raise ValueError(f"record {index}, {name} has shape {column.shape}: give an array of shape (n,), and several records as a list")
     time = columns["time"]
-    if len({len(column) for column in columns.values()}) > 1:
-        counts = ", ".join(f"{name} {len(column)}" for name, column in columns.items())
-        raise ValueError(f"record {index}: columns must have as many rows as one another: {counts}")
+    refuse_lengths(columns, f"record {index}: ")
     if len(time) > 1 and time[-1] < time[0]:
         raise ValueError(f"record {index}: times descend, from {time[0]:g} s to {time[-1]:g} s: turn the columns round")
     return (f"record {index}", list(columns.values()))
