@@ -250,6 +250,9 @@ pub trait Indenter: std::fmt::Debug + Send + Sync {
     }
 
     /// Half the side of the square that just holds the elastic contact under this load (N) and contact compliance (1/Pa).
+    ///
+    /// Of a body of revolution this is the radius of the contact, exactly: elastic scales of figures are made of it, and the linearised model
+    /// of an identification takes its slope over the load.
     fn elastic_half_width_m(&self, load_n: f64, compliance_per_pa: f64) -> f64;
 
     /// Where the half-space engine puts its cells under this load (N) and contact compliance (1/Pa).
