@@ -156,12 +156,7 @@ impl DataFile {
                 .into());
         }
         let grid = Grid::of_table(&self.source, header.delimiter(), usize::MAX);
-        let names = grid.line(0);
-        let is_wanted = |place| {
-            let ways = column::ways(names.text(place));
-            wanted.iter().any(|column| column.named(&ways).is_some())
-        };
-        Section::new(&grid, 0, grid.len(), is_wanted).table(wanted, holes, without_number)
+        Section::of(&grid, 0, wanted).table(wanted, holes, without_number)
     }
 
     /// All cells as numbers: a matrix without a header.
@@ -202,10 +197,7 @@ impl DataFile {
 
     /// The first line, cut by the delimiter that shows most of the columns.
     fn header(&self, wanted: &[Column]) -> Grid {
-        self.opening(|header| {
-            let is_there = |column: &&Column| header.texts().any(|cell| column.is_named(cell));
-            wanted.iter().filter(is_there).count()
-        })
+        self.opening(|header| wanted.iter().filter(|of| of.is_in(header)).count())
     }
 
     /// The first line, cut by the delimiter that does best; of equal ones the first that is there.

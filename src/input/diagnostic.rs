@@ -458,11 +458,6 @@ impl Reported<'_> {
         self.change(|diagnostic| diagnostic.help(text))
     }
 
-    /// Adds background.
-    pub fn note(self, text: impl Into<String>) -> Self {
-        self.change(|diagnostic| diagnostic.note(text))
-    }
-
     /// Takes the report back, because a better one says the same.
     pub fn retract(self) {
         if let Some(slot) = self.problems.found.borrow_mut().list.get_mut(self.index) {

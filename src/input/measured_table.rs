@@ -8,11 +8,14 @@ use crate::identify::data::{Datum, Number, TableColumns};
 use crate::measured::statistics::NORMAL;
 use crate::quantity::Dimension::{AngularFrequency, Force, Frequency, Length};
 
-const ANGULAR: Column = Column::new(
-    &["angular_frequency"],
-    AngularFrequency,
-    "angular frequencies",
-);
+const ANGULAR: Column = Column {
+    unit_may_be_absent: true,
+    ..Column::new(
+        &["angular_frequency"],
+        AngularFrequency,
+        "angular frequencies",
+    )
+};
 const HERTZ: Column = Column::new(&["frequency"], Frequency, "frequencies");
 
 /// A number, and the column of its values.
@@ -70,8 +73,8 @@ static MEASURED: [Measured; 12] = [
 
 /// Columns that only the table of an analysis of records has.
 const OF_ANALYSIS: [Column; 2] = [
-    Column::new(&["cycles_measured"], Frequency, "counts"),
-    Column::new(&["points_per_cycle"], Frequency, "counts"),
+    Column::pure(&["cycles_measured"], "counts"),
+    Column::pure(&["points_per_cycle"], "counts"),
 ];
 
 const DERIVED: &str =
@@ -414,6 +417,19 @@ mod tests {
     fn parsed(text: &str, zero: Option<ApproachZero>) -> Result<Found, Diagnostics> {
         let drive = HarmonicDrive::load(10.0, 5.0).unwrap();
         parse("measured.csv", text.as_bytes(), (drive, zero))
+    }
+
+    #[test]
+    fn an_angular_frequency_is_in_rad_per_s_and_never_in_hertz() {
+        let read = |unit: &str| {
+            let text = format!("angular_frequency{unit},phase_lag_rad\n2,0.1\n");
+            under_load(&text).map(|(data, _)| data[0].place)
+        };
+        for unit in ["", " [1/s]", "_rad_per_s", " (rad/s)"] {
+            assert_eq!(read(unit).unwrap(), 2.0, "{unit}");
+        }
+        let refused = read(" [Hz]").unwrap_err().to_string();
+        assert!(refused.contains("`Hz` is no unit"), "{refused}");
     }
 
     #[test]

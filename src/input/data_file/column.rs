@@ -6,6 +6,7 @@
 
 use std::f64::consts::TAU;
 
+use super::grid::Line;
 use super::section::Section;
 use super::text::DELIMITERS;
 use super::units::{self, Scale};
@@ -18,13 +19,13 @@ pub(crate) struct Column {
     /// Its names without unit, in lower case and joined by `_`; the first is the one that this program writes.
     pub(crate) names: &'static [&'static str],
     /// Words that may stand among those of a name.
-    pub(crate) besides: &'static [&'static str],
+    pub(crate) besides: &'static [&'static [&'static str]],
     pub(crate) holds: Holds,
     /// `None` of numbers and words without a unit.
     pub(crate) dimension: Option<Dimension>,
     /// What it holds, in the plural: `times`.
     pub(crate) what: &'static str,
-    /// Whether it may be without a unit, and is then in SI units. One of angular frequencies that may not be may be in Hz, too.
+    /// Whether it may be without a unit, and is then in SI units. Of angular frequencies one that must have a unit may be in Hz, too.
     pub(crate) unit_may_be_absent: bool,
     /// Whether a name with anything else in brackets than a unit of this column is one of something else.
     pub(crate) unit_decides: bool,
@@ -167,37 +168,36 @@ impl Column {
         self.named(&ways(cell)).is_some()
     }
 
+    /// Whether one of these cells names it.
+    pub(crate) fn is_in(&self, header: &Line<'_>) -> bool {
+        header.texts().any(|cell| self.is_named(cell))
+    }
+
     /// How a cell of a header, taken apart in these ways, names this column; `None` where it names another one.
     pub(crate) fn named(&self, ways: &[Way<'_>]) -> Option<Named> {
         ways.iter().enumerate().find_map(|(place, way)| {
             // A unit may be joined to a name that has none beside it, in up to four words.
-            let most = match (way.unit, self.dimension) {
-                (None, Some(_)) => 5,
-                _ => 1,
-            };
+            let may_be_joined = way.unit.is_none() && self.dimension.is_some();
+            let most = if may_be_joined { 5 } else { 1 };
             let ends = way.name.rmatch_indices('_').map(|(end, _)| end);
             let ends = [way.name.len()].into_iter().chain(ends).take(most);
             ends.enumerate().find_map(|(joined, end)| {
-                let name = &way.name[..end];
-                let which = self.which(name).filter(|_| !self.is_other_symbol(way))?;
-                let fits = |unit: &str| self.scale(name, Some(unit)).is_ok();
+                let found = self.which(&way.name[..end]);
+                let (which, name) = found.filter(|_| !self.is_other_symbol(way))?;
+                let fits = |unit: &str| self.scale("", Some(unit)).is_ok();
                 let is_joined = |unit: &String| units::given(unit) == Some(unit) && fits(unit);
                 let unit = match joined {
                     0 => way.unit.map(str::to_owned),
-                    _ => Some(
-                        units::joined(way.last(joined))
-                            .into_iter()
-                            .find(is_joined)?,
-                    ),
+                    _ => Some(way.joined(joined).into_iter().find(is_joined)?),
                 };
                 let is_own = match &unit {
                     None => (self.dimension, &*way.written) != (Some(Time), "T"),
-                    Some(unit) => (way.is_sure && self.is_sure(name)) || fits(unit),
+                    Some(unit) => (way.is_sure && self.is_sure(&name)) || fits(unit),
                 };
-                is_own.then(|| Named {
+                is_own.then_some(Named {
                     rank: [place, joined, which],
                     is_vague: !way.is_sure || which >= self.names.len(),
-                    name: name.to_owned(),
+                    name,
                     unit,
                 })
             })
@@ -211,10 +211,8 @@ impl Column {
             Some(AngularFrequency | Frequency) => &["F", "W"],
             _ => &[],
         };
-        way.written
-            .split('_')
-            .next()
-            .is_some_and(|first| symbols.contains(&first))
+        let first = way.written.split('_').next();
+        first.is_some_and(|first| symbols.contains(&first))
     }
 
     /// Whether a name is one of this column with any unit, be it a wrong one: a letter stands for many things, but those of frequencies.
@@ -223,33 +221,39 @@ impl Column {
         !self.unit_decides && (is_frequency || name.chars().nth(1).is_some())
     }
 
-    /// Which of its names this is; beyond their number where it is two of them, as in `storage_modulus_e'`.
-    fn which(&self, name: &str) -> Option<usize> {
+    /// Which of its names this is, beyond their number where it is two of them, as in `storage_modulus_e'`; and the name without words
+    /// of errors.
+    fn which(&self, name: &str) -> Option<(usize, String)> {
         let has = |list: &str, word: &str| list.split(' ').any(|known| known == word);
-        let words = name.split('_');
-        let has_error = words.clone().any(|word| has(OF_ERRORS, word));
-        let is_standard = has_error && words.clone().any(|word| has(OF_STANDARD_ERRORS, word));
+        let mut words: Vec<&str> = name.split('_').collect();
+        let has_error = words.iter().any(|word| has(OF_ERRORS, word));
+        let is_standard = words.iter().any(|word| has(OF_STANDARD_ERRORS, word));
         let is_held = match self.holds {
             Holds::Values => !has_error,
             Holds::Errors => has_error && !is_standard,
-            Holds::StandardErrors => is_standard,
+            Holds::StandardErrors => has_error && is_standard,
             Holds::ErrorsOrShares => has_error,
         };
-        let of_errors =
-            |word: &str| has_error && (has(OF_ERRORS, word) || has("standard of", word));
-        let words = words.filter(|word| !of_errors(word) && !self.besides.contains(word));
-        let words: Vec<&str> = words.collect();
+        if !is_held {
+            return None;
+        }
+        if has_error {
+            words.retain(|word| !has(OF_ERRORS, word) && !has("standard of", word));
+        }
+        let name = words.join("_");
+        words.retain(|word| !self.besides.iter().any(|list| list.contains(word)));
         let own = |words: &[&str]| {
             let is_it = |known: &&str| known.split('_').eq(words.iter().copied());
-            self.names.iter().position(is_it).filter(|_| is_held)
+            self.names.iter().position(is_it)
         };
-        own(&words).or_else(|| {
+        let two = || {
             let ends = [words.split_at_checked(1)?, words.split_at(words.len() - 1)];
             let two = ends
                 .into_iter()
                 .find_map(|(a, b)| Some(own(a)?.min(own(b)?)));
             Some(self.names.len() + two?)
-        })
+        };
+        Some((own(&words).or_else(two)?, name))
     }
 
     /// Where the column stands in a table, and the unit beside its name; `None` where it is not there and need not be. Of several cells
@@ -310,7 +314,7 @@ pub(crate) struct Named {
     pub(crate) rank: [usize; 3],
     /// Whether it may as well mean something else.
     is_vague: bool,
-    /// In lower case, its words joined by `_`.
+    /// In lower case, its words joined by `_`, without those of errors.
     pub(crate) name: String,
     /// Where the cell gives it.
     pub(crate) unit: Option<String>,
@@ -365,9 +369,9 @@ pub(crate) fn ways(cell: &str) -> Vec<Way<'_>> {
 const LONGEST: usize = 100;
 
 impl Way<'_> {
-    /// The last words of the name.
-    fn last(&self, words: usize) -> &str {
+    /// The units that the last words of the name may be.
+    fn joined(&self, words: usize) -> [String; 3] {
         let before = self.written.rmatch_indices('_').take(words).last();
-        before.map_or("", |(at, _)| &self.written[at + 1..])
+        units::joined(before.map_or("", |(at, _)| &self.written[at + 1..]))
     }
 }

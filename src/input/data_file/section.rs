@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::column::Column;
+use super::column::{self, Column};
 use super::grid::{Grid, Line, line_at};
 use super::numbers::{self, Cell, Numbers};
 use super::units::{self, Scale};
@@ -70,6 +70,15 @@ impl<'a> Section<'a> {
             skipped: Vec::new(),
             by_instrument: false,
         }
+    }
+
+    /// The same of a table down to the end, of which these columns are wanted.
+    pub(crate) fn of(grid: &'a Grid, header: usize, wanted: &[Column]) -> Self {
+        let names = grid.header(header);
+        Self::new(grid, header, grid.len(), |place| {
+            let ways = column::ways(names.text(place));
+            wanted.iter().any(|column| column.named(&ways).is_some())
+        })
     }
 
     /// Rows of numbers without names, from this line on.

@@ -8,7 +8,7 @@ use super::steps::temperature_in;
 use crate::input::data_file::Holes;
 use crate::input::data_file::grid::{Grid, Line};
 use crate::input::data_file::section::{Asked, Section, Table};
-use crate::input::data_file::units::{Scale, given};
+use crate::input::data_file::units::given;
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Location, Problems};
 use crate::material::ModulusKind;
 use crate::material::dynamic::DynamicPoint;
@@ -293,9 +293,8 @@ impl<'a> Block<'a> {
         let read = asked.iter().map(|(place, named)| {
             let above = named.unit.as_deref();
             Ok(Column {
-                asked: self.section.asked(role.column(), *place, above)?,
-                role,
                 unit: self.unit_of(*place, named),
+                ..Column::at(self.section.asked(role.column(), *place, above)?, role)
             })
         });
         let read: Vec<Result<Column, Diagnostic>> = read.collect();
@@ -354,11 +353,10 @@ enum Row {
 }
 
 impl Column {
-    /// One of a known role that is in this place.
-    pub(super) fn at(place: usize, role: Role, scale: Scale) -> Self {
-        let what = role.column().what;
+    /// One of a known role.
+    pub(super) fn at(asked: Asked, role: Role) -> Self {
         Self {
-            asked: Asked { place, scale, what },
+            asked,
             role,
             unit: None,
         }

@@ -89,7 +89,7 @@ pub(super) const TEMPERATURE: Column = Column {
 
 const fn modulus(names: &'static [&'static str], what: &'static str) -> Column {
     Column {
-        besides: &OF_KINDS,
+        besides: &[&OF_SHEAR, &OF_TENSION],
         ..Column::new(names, Stress, what)
     }
 }
@@ -101,19 +101,10 @@ const fn errors(column: Column, what: &'static str) -> Column {
     }
 }
 
-/// Words that say which modulus it is: of shear, and of tension.
-const OF_KINDS: [&str; 9] = [
-    "shear",
-    "schub",
-    "tensile",
-    "young's",
-    "youngs",
-    "longitudinal",
-    "axial",
-    "elongational",
-    "bending",
-];
-const SHEAR_WORDS: usize = 2;
+/// Words that say that a modulus is one of shear, and that it is one of tension.
+const OF_SHEAR: [&str; 2] = ["shear", "schub"];
+#[rustfmt::skip]
+const OF_TENSION: [&str; 7] = ["tensile", "young's", "youngs", "longitudinal", "axial", "elongational", "bending"];
 
 /// A column that was recognised.
 #[derive(Debug, Clone, PartialEq)]
@@ -146,30 +137,16 @@ pub(super) fn recognise(cell: &str) -> Option<Named> {
     })
 }
 
-/// Which modulus a name speaks of: by a word, or by the letter of `g'`, `|e*|`, `e_stor`, `gpp`.
+/// Which modulus a name without words of errors speaks of: by a word, or by the letter of `g'`, `|e*|`, `e_stor`, `gpp`.
 fn kind_of(name: &str) -> Option<ModulusKind> {
-    let of_word = |word: &str| {
-        let place = OF_KINDS.iter().position(|known| *known == word)?;
-        Some(match place < SHEAR_WORDS {
-            true => ModulusKind::Shear,
-            false => ModulusKind::Longitudinal,
-        })
-    };
-    let of_letter = |word: &str| {
-        let (kind, rest) = match word.trim_start_matches('|').split_at_checked(1)? {
-            ("g", rest) => (ModulusKind::Shear, rest),
-            ("e", rest) => (ModulusKind::Longitudinal, rest),
-            _ => return None,
-        };
-        let is_symbol = rest.is_empty()
-            || ["'", "*", "p", "stor", "loss"]
-                .iter()
-                .any(|next| rest.starts_with(next));
-        is_symbol.then_some(kind)
-    };
-    let mut words = name.split('_');
-    words
-        .clone()
-        .find_map(of_word)
-        .or_else(|| words.find_map(of_letter))
+    name.split('_').find_map(|word| {
+        let letter = word.trim_start_matches('|').chars().next()?;
+        match letter {
+            _ if OF_SHEAR.contains(&word) => Some(ModulusKind::Shear),
+            _ if OF_TENSION.contains(&word) => Some(ModulusKind::Longitudinal),
+            'g' => Some(ModulusKind::Shear),
+            'e' => Some(ModulusKind::Longitudinal),
+            _ => None,
+        }
+    })
 }

@@ -56,10 +56,8 @@ pub(super) static OF_TEXTS: [&Format; 8] = [
         format: DynamicFormat::TriosText,
         mark: |source| {
             let heads = "Filename\t|proceduresegments\t|[File Parameters]|Instrument name\t|Geometry name\t";
-            let is_there = opens(source, usize::MAX, |line| is_step(line.trim()))
-                && opens(source, 40, |line| {
-                    heads.split('|').any(|head| line.starts_with(head))
-                });
+            let has_step = opens(source, usize::MAX, |line| is_step(line.trim()));
+            let is_there = has_step && opens_with(source, 40, heads);
             is_there.then(|| "lines `[step]` and a head of TRIOS".to_owned())
         },
         read: |source, reading| {
@@ -75,10 +73,8 @@ pub(super) static OF_TEXTS: [&Format; 8] = [
         format: DynamicFormat::TriosCsv,
         mark: |source| {
             let heads = "Filename,|rundate,|Geometry name,|Instrument name,";
-            let has_head = opens(source, 60, |line| {
-                heads.split('|').any(|head| line.starts_with(head))
-            });
-            let is_there = (has_head || !opens(source, 40, |line| line.contains('\t')))
+            let has_tab = || opens(source, 40, |line| line.contains('\t'));
+            let is_there = (opens_with(source, 60, heads) || !has_tab())
                 && opens(source, usize::MAX, |line| is_step(cell(line)));
             is_there.then(|| "lines `[step]` and cells separated by commas".to_owned())
         },
@@ -133,6 +129,13 @@ pub(super) static OF_TEXTS: [&Format; 8] = [
 /// Whether one of the first lines of a text is such.
 fn opens(source: &Source, lines: usize, is_such: impl Fn(&str) -> bool) -> bool {
     source.text().lines().take(lines).any(is_such)
+}
+
+/// Whether one of the first lines of a text begins with one of these, which `|` parts.
+fn opens_with(source: &Source, lines: usize, heads: &str) -> bool {
+    opens(source, lines, |line| {
+        heads.split('|').any(|head| line.starts_with(head))
+    })
 }
 
 /// CSV files of pyvisco (NREL/pyvisco, folder `examples` and documentation).

@@ -115,7 +115,15 @@ pub fn from_files(
     format: Option<DynamicFormat>,
     kind: ModulusKind,
 ) -> Result<DynamicFile, Diagnostics> {
-    let mut reading = Reading::new(kind);
+    let mut reading = Reading {
+        kind,
+        isotherms: Vec::new(),
+        notes: Vec::new(),
+        is_in_hertz: true,
+        prefix: String::new(),
+        missing: 0,
+        noise: None,
+    };
     let mut first = None;
     for (name, bytes) in files {
         if files.len() > 1 {
@@ -220,18 +228,6 @@ struct Reading {
 }
 
 impl Reading {
-    fn new(kind: ModulusKind) -> Self {
-        Self {
-            kind,
-            isotherms: Vec::new(),
-            notes: Vec::new(),
-            is_in_hertz: true,
-            prefix: String::new(),
-            missing: 0,
-            noise: None,
-        }
-    }
-
     /// Says how many rows were passed over, and why.
     fn note_rows(&mut self, count: usize, why: &str) {
         let s = if count == 1 { "" } else { "s" };

@@ -10,9 +10,9 @@ use std::sync::Arc;
 use super::Reading;
 use super::block::{Block, Column, Columns};
 use super::columns::Role;
-use crate::input::data_file::grid::{Grid, Line};
+use crate::input::data_file::grid::Grid;
 use crate::input::data_file::section::Section;
-use crate::input::data_file::units::{self, Scale};
+use crate::input::data_file::{self, units};
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Source};
 use crate::material::ModulusKind;
 
@@ -56,18 +56,31 @@ pub(super) fn read(source: &Arc<Source>, reading: &mut Reading) -> Result<(), Di
         .into());
     }
     let is_row = |line: &usize| (0..3).all(|cell| grid.line(*line).is_number(cell));
+    let is_units = |line: &usize| (0..3).all(|cell| units::is_unit(grid.line(*line).text(cell)));
     let first = (1..grid.len()).find(is_row).unwrap_or(grid.len());
-    let units = (1..first).find_map(|line| scales(&grid.line(line)));
-    if units.is_none() {
+    let mut block = Block::of(Section::without_names(&grid, first)).by_instrument();
+    block.section.units = (1..first).find(is_units).map(|line| grid.line(line));
+    if block.section.units.is_none() {
         reading.note("no row of units: taken in rad/s and Pa");
     }
-    let mut block = Block::of(Section::without_names(&grid, first)).by_instrument();
     block.temperature_k = temperature(&grid, reading)?;
-    let scales = units.unwrap_or([Scale::ONE; 3]);
-    let column = |place: usize, role| Some(Column::at(place, role, scales[place]));
-    let [omega, storage] = [column(0, Role::AngularFrequency), column(1, Role::Storage)];
+    let column = |place: usize, role: Role| {
+        let unit_may_be_absent = true;
+        let column = data_file::Column {
+            unit_may_be_absent,
+            ..*role.column()
+        };
+        Ok::<_, Diagnostic>(Some(Column::at(
+            block.section.asked(&column, place, None)?,
+            role,
+        )))
+    };
+    let [omega, storage] = [
+        column(0, Role::AngularFrequency)?,
+        column(1, Role::Storage)?,
+    ];
     let columns = Columns {
-        numbers: [omega, storage, column(2, Role::Loss), None, None, None],
+        numbers: [omega, storage, column(2, Role::Loss)?, None, None, None],
         moduli: |storage, loss| (storage, loss),
         set: None,
         has_one_error: false,
@@ -98,14 +111,4 @@ fn temperature(grid: &Grid, reading: &mut Reading) -> Result<Option<f64>, Diagno
         )
         .help("write it as `T=25`")),
     }
-}
-
-/// The units of the first three columns, where a line holds units.
-fn scales(line: &Line<'_>) -> Option<[Scale; 3]> {
-    let scale = |cell: usize, role: Role| {
-        let unit = Some(line.text(cell)).filter(|unit| units::is_unit(unit))?;
-        role.column().scale("", Some(unit)).ok()
-    };
-    let [omega, storage] = [scale(0, Role::Frequency)?, scale(1, Role::Storage)?];
-    Some([omega, storage, scale(2, Role::Loss)?])
 }

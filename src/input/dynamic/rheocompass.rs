@@ -11,20 +11,14 @@ use std::sync::Arc;
 
 use super::block::Block;
 use super::{Reading, steps};
+use crate::input::data_file::Column;
 use crate::input::data_file::grid::Grid;
 use crate::input::diagnostic::{Diagnostics, Source};
 
-/// Names of the column that numbers the points, in lower case.
-const NUMBER_OF_POINT: [&str; 8] = [
-    "point no.",
-    "point no",
-    "meas. pts.",
-    "messpunkt",
-    "punkt nr.",
-    "mess-pkt.",
-    "nr.",
-    "no.",
-];
+/// The column that numbers the points.
+#[rustfmt::skip]
+const NUMBER_OF_POINT: Column =
+    Column::pure(&["point_no", "meas_pts", "messpunkt", "punkt_nr", "mess_pkt", "nr", "no"], "numbers of points");
 
 /// Why a text is taken for this format.
 pub(super) fn mark(source: &Arc<Source>) -> Option<String> {
@@ -92,8 +86,9 @@ fn interval<'a>(grid: &'a Grid, header: usize, next: usize, reading: &mut Readin
     let first = (header + 2).min(next);
     section.rows = first..(first..next).find(is_label).unwrap_or(next);
     // Where points are numbered, one without a number is invalid.
-    let is_number_of_point = |text: &str| NUMBER_OF_POINT.contains(&text.to_lowercase().as_str());
-    if let Some(place) = section.header.texts().position(is_number_of_point) {
+    let is_number = |cell| NUMBER_OF_POINT.is_named(cell);
+    let number = section.header.texts().position(is_number);
+    if let Some(place) = number {
         let columns = section.header.len();
         let is_invalid = |line: &usize| !grid.line(*line).aligned(columns).is_number(place);
         let invalid: Vec<usize> = section.rows.clone().filter(is_invalid).collect();

@@ -5,27 +5,18 @@ use std::path::Path;
 
 use super::columns::TEMPERATURE;
 use crate::input::data_file::column::Column;
-use crate::input::data_file::grid::{self, Grid, Line};
+use crate::input::data_file::grid::{self, Grid};
 use crate::input::data_file::section::Section;
 use crate::input::data_file::{self, Holes};
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Problems};
 use crate::quantity::ZERO_CELSIUS_K;
 
+/// Names of decadic logarithms of shift factors.
+#[rustfmt::skip]
+const FACTORS: [&str; 6] = ["log_at", "log10_a_t", "log10_at", "log(at)", "log10(at)", "log_a_t"];
+
 /// Temperatures and shift factors.
-const COLUMNS: [Column; 2] = [
-    TEMPERATURE,
-    Column::pure(
-        &[
-            "log_at",
-            "log10_a_t",
-            "log10_at",
-            "log(at)",
-            "log10(at)",
-            "log_a_t",
-        ],
-        "shift factors",
-    ),
-];
+const COLUMNS: [Column; 2] = [TEMPERATURE, Column::pure(&FACTORS, "shift factors")];
 
 /// Temperatures (K) and decadic logarithms of the shift factors, in the order of the file.
 ///
@@ -43,13 +34,9 @@ pub fn read_shift_factors(path: &Path) -> Result<Vec<(f64, f64)>, Diagnostics> {
 pub fn shift_factors_from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<(f64, f64)>, Diagnostics> {
     data_file::within(name, bytes, super::MAX_BYTES, super::FEWER)?;
     let (source, _) = grid::source(name, bytes)?;
-    let names = |cells: &Line<'_>, column: &Column| cells.texts().any(|cell| column.is_named(cell));
     let found = Grid::best(&source, |grid, line| {
-        let cells = grid.header(line);
-        COLUMNS
-            .iter()
-            .all(|column| names(&cells, column))
-            .then_some(())
+        let header = grid.header(line);
+        COLUMNS.iter().all(|of| of.is_in(&header)).then_some(())
     });
     let Some((grid, header)) = found else {
         let place = Grid::new(&source, ',').place(0);
@@ -59,13 +46,7 @@ pub fn shift_factors_from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<(f64, f6
             .help(help)
             .into());
     };
-    let is_known = |place: usize| {
-        let names = grid.header(header);
-        COLUMNS
-            .iter()
-            .any(|column| column.is_named(names.text(place)))
-    };
-    let mut section = Section::new(&grid, header, grid.len(), is_known);
+    let mut section = Section::of(&grid, header, &COLUMNS);
     section.by_instrument = true;
     let help = "write it as `-1.5`, or leave the whole row out";
     let table = section.table(&COLUMNS, Holes::Refused, help)?;

@@ -51,6 +51,11 @@ fn what_cannot_be_read_is_refused_at_its_place() {
         refused.contains("dma.csv:5:8") && refused.contains("storage moduli must be a number"),
         "{refused}"
     );
+    let refused = read_text(&OSC.replace("rad/s", "Hz"), ModulusKind::Shear).unwrap_err();
+    assert!(
+        refused.contains("dma.csv:3:1") && refused.contains("`Hz` is no unit of the column"),
+        "{refused}"
+    );
     let refused = read_text("T=1;\n", ModulusKind::Shear).unwrap_err();
     assert!(refused.contains("at least 3 points"), "{refused}");
 }
