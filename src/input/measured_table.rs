@@ -433,6 +433,15 @@ mod tests {
     }
 
     #[test]
+    fn errors_are_those_that_are_called_so() {
+        let text =
+            "frequency_hz,phase_lag_rad,phase_lag_std [%],Error of phase lag [mrad]\n1,0.1,3,2\n";
+        let (data, columns) = under_load(text).unwrap();
+        assert_eq!(data[0].error, Some(2e-3));
+        assert_eq!(columns.unread, ["phase_lag_std [%]"]);
+    }
+
+    #[test]
     fn the_first_name_of_a_number_is_that_of_its_column() {
         for own in &MEASURED {
             assert_eq!(own.value.name_in_si(), own.number.column());

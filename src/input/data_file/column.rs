@@ -39,10 +39,10 @@ pub(crate) struct Column {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Holds {
     Values,
-    /// Errors, but for standard errors.
+    /// What is called errors, but for standard errors.
     Errors,
     StandardErrors,
-    /// Errors of either name, which may be in %.
+    /// Errors under any word, which may be in %.
     ErrorsOrShares,
 }
 
@@ -230,8 +230,8 @@ impl Column {
         let is_standard = words.iter().any(|word| has(OF_STANDARD_ERRORS, word));
         let is_held = match self.holds {
             Holds::Values => !has_error,
-            Holds::Errors => has_error && !is_standard,
-            Holds::StandardErrors => has_error && is_standard,
+            Holds::Errors => words.contains(&"error") && !is_standard,
+            Holds::StandardErrors => words.contains(&"error") && is_standard,
             Holds::ErrorsOrShares => has_error,
         };
         if !is_held {
