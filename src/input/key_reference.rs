@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::document::kind::json_of;
 use super::keys::{self, FileKind};
 use crate::quantity::key::Key;
-use crate::quantity::rows::{Branch, Rows};
+use crate::quantity::rows::{Branch, Others, Rows};
 
 /// The reference, as Markdown.
 pub fn markdown() -> String {
@@ -53,7 +53,7 @@ fn section(
     }
     known.push(rows);
     // Writing to a String cannot fail.
-    let _ = write!(text, "### {heading}\n\n{}\n\n", rows.means.trim());
+    let _ = write!(text, "### {heading}\n\n{}\n\n", about(rows));
     list(&rows.own(), text);
     let branches = rows.branches();
     for branch in &branches {
@@ -68,6 +68,23 @@ fn section(
             };
             section(below, &format!("`{path}`"), &path, known, text);
         }
+    }
+}
+
+/// What a table is about, and the keys of which it takes one.
+fn about(rows: &Rows) -> String {
+    let means = rows.means.trim();
+    let Others::OneListAnd(lists) = rows.others else {
+        return means.to_owned();
+    };
+    let firsts = lists.iter().filter_map(|(list, _)| list.first()?.first());
+    let names: Vec<String> = firsts.map(|key| format!("`{}`", key.name)).collect();
+    match &names[..] {
+        [others @ .., last] => {
+            let others = others.join(", ");
+            format!("{means}: exactly one of {others} and {last}.")
+        }
+        [] => means.to_owned(),
     }
 }
 

@@ -4,7 +4,7 @@ use super::key::Key;
 
 /// The keys of a table.
 pub struct Rows {
-    /// What the table is about; opens with a blank.
+    /// What the table is about; opens with a blank. Where it takes one of several lists, the reference says of which behind it.
     pub means: &'static str,
     /// Keys that it may have whatever else it has.
     pub keys: List,

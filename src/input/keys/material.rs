@@ -87,15 +87,14 @@ forms! {
 }
 
 pub(super) static MATERIAL: Rows = Rows {
-    means: " Material of the half-space: exactly one of `library`, `elastic`, `relaxation`, `creep`, `maxwell`, `zener`, `kelvin_voigt`, \
-            `fractional`, `isotherm`, `dynamic` and `table`.",
+    means: " Material of the half-space",
     keys: &[&[NAME]],
     others: Others::OneListAnd(LISTS),
 };
 
 /// What an indenter may be made of.
 pub(in crate::input) static INDENTER_MATERIAL: Rows = Rows {
-    means: " What the indenter is made of, where it is not rigid: exactly one of `library`, `elastic`, `relaxation`, `creep`, `zener` and `isotherm`.",
+    means: " What the indenter is made of, where it is not rigid",
     keys: &[&[NAME]],
     others: Others::OneListAnd(&[
         (
@@ -183,21 +182,3 @@ static DYNAMIC_TABLE: Rows = Rows {
     keys: &[&[FORMAT, DYNAMIC_MODULUS], Choices::KEYS],
     others: Others::OneList(&[&[&[DYNAMIC_FILE]], &[&[DYNAMIC_FILES]]]),
 };
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_said_of_the_block_names_every_form() {
-        let named = |rows: &Rows, key: &Key| rows.means.contains(&format!("`{}`", key.name));
-        for (key, form) in &FORMS {
-            assert!(named(&MATERIAL, key), "{form:?}");
-        }
-        let branches = INDENTER_MATERIAL.branches();
-        for (first, _) in branches.iter().flat_map(|branch| &branch.decided_by) {
-            let is_named = INDENTER_MATERIAL.means.contains(&format!("`{first}`"));
-            assert!(is_named, "{first}");
-        }
-    }
-}
