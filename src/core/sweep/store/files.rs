@@ -5,7 +5,7 @@ use super::listing::RUN;
 use super::{RESOLVED, checkpoint_file, records};
 
 /// Every figure a sweep may have; which of them it has depends on its axes, its material and its results.
-pub const FIGURES: [&str; 22] = [
+pub const FIGURES: &[&str] = &[
     "energy-loss",
     "loops",
     "dissipation",
@@ -30,7 +30,7 @@ pub const FIGURES: [&str; 22] = [
     "peaks-4",
 ];
 /// Those of scenarios and of measured loops besides.
-const MORE_FIGURES: [&str; 5] = [
+const MORE_FIGURES: &[&str] = &[
     "history",
     "cycle-losses",
     "profiles",
@@ -39,7 +39,7 @@ const MORE_FIGURES: [&str; 5] = [
 ];
 
 /// Everything else at the top.
-const TABLES: [&str; 10] = [
+const TABLES: &[&str] = &[
     RUN,
     RESOLVED,
     "sweep.csv",
