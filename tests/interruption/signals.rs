@@ -56,7 +56,7 @@ fn a_command_that_has_nothing_to_keep_ends_at_once() {
 
 #[test]
 fn a_hangup_is_nothing_where_whoever_started_it_ignores_it() {
-    let place = Place::with("cells.toml", &on_cells(256));
+    let place = Place::with("cells.toml", &on_cells(128));
     let out = place.path("out");
     let sweep = ["sweep", "cells.toml", "--no-figures", "--out", "out"];
     let child = after("trap '' HUP;", &sweep, &place.path(""));

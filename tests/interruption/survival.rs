@@ -46,13 +46,16 @@ fn whole_long() -> PathBuf {
     WHOLE[1].path("whole")
 }
 
+fn copy(from: &Path, to: &Path) {
+    let copied = Process::new("cp").arg("-r").args([from, to]).status();
+    assert!(copied.unwrap().success());
+}
+
 /// A copy of [`whole_cheap`] in `out`, to be damaged.
 fn copy_of_cheap() -> (Place, PathBuf) {
     let place = of(CHEAP);
     let out = place.path("out");
-    let mut copying = Process::new("cp");
-    copying.arg("-r").arg(whole_cheap()).arg(&out);
-    assert!(copying.status().unwrap().success());
+    copy(&whole_cheap(), &out);
     (place, out)
 }
 
@@ -161,7 +164,7 @@ fn a_long_case_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
         .replace("method = \"march\"\ntolerance = 1e-9", "tolerance = 1e-12")
         .replace("steps = 200", "steps = 100000");
     let cells = LONG
-        .replace("20 rad/s", "0.6 rad/s")
+        .replace("10 rad/s", "0.6 rad/s")
         .replace("steps = 200", "steps = 48")
         .replace("springs = 160", "engine = \"half-space\"\ncells = 32");
     let ways = [("march", LONG), ("search", &searched), ("cells", &cells)];
@@ -369,9 +372,7 @@ fn a_full_disk_is_told_and_what_was_whole_before_stays_whole() {
     let records = segments::count(&out);
     assert!(records > 0);
     let kept = place.path("kept");
-    let mut copying = Process::new("cp");
-    copying.arg("-r").arg(&out).arg(&kept);
-    assert!(copying.status().unwrap().success());
+    copy(&out, &kept);
     drop(disk);
     fs::remove_dir(&out).unwrap();
     fs::rename(kept, &out).unwrap();

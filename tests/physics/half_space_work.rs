@@ -2,6 +2,7 @@
 //! lose nothing.
 
 use crate::prelude::*;
+use crate::shapes::roughness;
 use contact_dma::reference::transient::step_load_contact_radius_m;
 
 const RADIUS_M: f64 = 0.01;
@@ -96,22 +97,14 @@ fn assert_same(one: &Solution, other: &Solution) {
 /// A contact of some hundred patches on 2 % of a rough surface of 512 x 512 cells.
 #[test]
 fn a_rough_surface_takes_few_iterations_and_has_the_answer_of_the_safe_way() {
-    let spacing_m = 6.4e-5 / 512.0;
     let rough = Roughness {
-        cells: 512,
-        spacing_m,
-        hurst_exponent: 0.8,
-        rms_height_m: 3e-7,
-        roll_off_wavelength_m: Some(2e-5),
         cut_off_wavelength_m: 1e-6,
-        seed: 2018,
-        sphere_radius_m: Some(1e-4),
-        edge: MapEdge::Unknown,
+        ..roughness(512)
     };
-    let rough = rough.map().unwrap();
+    let grid = Grid::square(512, rough.spacing_m).unwrap();
+    let gaps = rough.map().unwrap().gaps_m().to_vec();
     let load = Prescribed::LoadN(0.02);
-    let gaps = rough.gaps_m().to_vec();
-    let operator = Arc::new(Convolution::new(Grid::square(512, spacing_m).unwrap()).unwrap());
+    let operator = Arc::new(Convolution::new(grid).unwrap());
     let new = || {
         let settings = SolverSettings::default();
         HalfSpace::new(Arc::clone(&operator), gaps.clone(), true, settings)

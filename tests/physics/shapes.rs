@@ -236,7 +236,8 @@ fn a_shift_by_whole_cells_shifts_the_answer() {
     near!(moved.contact_radius_m, plain.contact_radius_m, 1e-11);
 }
 
-fn roughness(cells: usize) -> Roughness {
+/// A rough sphere on so many cells a side.
+pub fn roughness(cells: usize) -> Roughness {
     Roughness {
         cells,
         spacing_m: 6.4e-5 / cells as f64,

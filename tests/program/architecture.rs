@@ -115,11 +115,6 @@ fn production(text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Modules named as `crate::module` in the code.
-fn modules_used(code: &str) -> Vec<&'static str> {
-    used(code, "crate::", &MODULES)
-}
-
 /// Those of these names that the code has behind this prefix.
 fn used<'a>(code: &str, prefix: &str, names: &[&'a str]) -> Vec<&'a str> {
     let named = |name: &&&str| {
@@ -132,151 +127,121 @@ fn used<'a>(code: &str, prefix: &str, names: &[&'a str]) -> Vec<&'a str> {
     names.iter().filter(named).copied().collect()
 }
 
-fn modules() -> Vec<(usize, PathBuf, Vec<&'static str>)> {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let core = src.join("core");
-    let mut all = Vec::new();
-    for path in sources(&src) {
-        let inside = path.strip_prefix(&core).or(path.strip_prefix(&src));
-        let inside = inside.unwrap();
+/// The source files below a folder: the path of each in it, the first part of that path without its ending, and the production code.
+fn files_of(folder: &str) -> Vec<(PathBuf, String, String)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+    let file = |path: PathBuf| {
+        let inside = path.strip_prefix(&folder).unwrap().to_path_buf();
         let first = inside.components().next().unwrap().as_os_str();
-        let name = first.to_str().unwrap().trim_end_matches(".rs");
-        if let Some(module) = MODULES.iter().position(|r| *r == name) {
-            let code = production(&fs::read_to_string(&path).unwrap());
-            all.push((module, inside.to_path_buf(), modules_used(&code)));
-        } else {
-            assert!(
-                ["build", "lib", "main"].contains(&name),
-                "{name} is not on the map"
-            );
-        }
+        let name = first.to_str().unwrap().trim_end_matches(".rs").to_owned();
+        (inside, name, production(&fs::read_to_string(path).unwrap()))
+    };
+    let files: Vec<_> = sources(&folder).into_iter().map(file).collect();
+    assert!(files.len() > 20, "the sources were not found");
+    files
+}
+
+/// The place of a part on a map.
+fn place(map: &[&str], part: &str) -> usize {
+    let place = map.iter().position(|known| *known == part);
+    place.unwrap_or_else(|| panic!("{part} is not on the map"))
+}
+
+#[track_caller]
+fn assert_above(map: &[&str], (file, own): (&Path, &str), used: &[&str]) {
+    for part in used {
+        let is_above = place(map, part) <= place(map, own);
+        assert!(
+            is_above,
+            "{} uses {part}, which is below it",
+            file.display()
+        );
     }
-    assert!(all.len() > 40, "the sources were not found");
-    all
+}
+
+/// Every source file of a module, and the modules that it names as `crate::module`.
+fn modules() -> Vec<(String, PathBuf, Vec<&'static str>)> {
+    let mut files = files_of("src");
+    files.retain(|(file, ..)| !file.starts_with("core"));
+    files.extend(files_of("src/core"));
+    files.retain(|(_, name, _)| !["build", "lib", "main"].contains(&name.as_str()));
+    let module = |(file, name, code): (PathBuf, String, String)| {
+        (name, file, used(&code, "crate::", &MODULES))
+    };
+    files.into_iter().map(module).collect()
 }
 
 #[test]
 fn a_module_uses_only_modules_above_it() {
     for (module, file, used) in modules() {
-        for name in used {
-            let other = MODULES.iter().position(|r| *r == name).unwrap();
-            assert!(
-                other <= module,
-                "{} uses {name}, which is below it",
-                file.display()
-            );
-        }
+        assert_above(&MODULES, (&file, &module), &used);
     }
 }
 
 #[test]
 fn a_folder_of_the_sweep_uses_only_folders_above_it() {
-    let sweep = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/core/sweep");
-    let mut seen = 0;
-    for path in sources(&sweep) {
-        let inside = path.strip_prefix(&sweep).unwrap();
-        let folder = inside.components().next().unwrap().as_os_str();
-        let Some(own) = SWEEP.iter().position(|name| *name == folder) else {
-            assert_eq!(inside, Path::new("mod.rs"), "not on the map");
-            continue;
-        };
-        seen += 1;
-        let code = production(&fs::read_to_string(&path).unwrap());
-        assert!(!code.contains("sweep::{"), "{}", inside.display());
-        for name in used(&code, "crate::sweep::", &SWEEP) {
-            let other = SWEEP.iter().position(|folder| *folder == name).unwrap();
-            assert!(
-                other <= own,
-                "{} uses {name}, which is below it",
-                inside.display()
-            );
+    for (file, folder, code) in files_of("src/core/sweep") {
+        if file != Path::new("mod.rs") {
+            assert!(!code.contains("sweep::{"), "{}", file.display());
+            let used = used(&code, "crate::sweep::", &SWEEP);
+            assert_above(&SWEEP, (&file, &folder), &used);
         }
     }
-    assert!(seen > 20, "the sources were not found");
 }
 
 #[test]
 fn a_part_of_the_report_uses_only_parts_above_it() {
-    let report = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/report");
-    let mut seen = 0;
-    for path in sources(&report) {
-        let inside = path.strip_prefix(&report).unwrap();
-        let first = inside.components().next().unwrap().as_os_str();
-        let name = first.to_str().unwrap().trim_end_matches(".rs");
-        let own = REPORT.iter().position(|part| *part == name);
-        let own = own.unwrap_or_else(|| panic!("{} is not on the map", inside.display()));
-        seen += 1;
-        let code = production(&fs::read_to_string(&path).unwrap());
+    for (file, name, code) in files_of("src/report") {
         let mut parts = used(&code, "crate::report::", &REPORT);
-        let is_a_whole_part = inside.components().count() == 1;
-        if is_a_whole_part && name != "mod" {
-            assert!(!code.contains("use super::{"), "{}", inside.display());
+        if file.components().count() == 1 && name != "mod" {
+            assert!(!code.contains("use super::{"), "{}", file.display());
             parts.extend(used(&code, "super::", &REPORT));
         }
-        assert!(!code.contains("report::{"), "{}", inside.display());
-        for part in parts {
-            let other = REPORT.iter().position(|p| *p == part).unwrap();
-            // Pictures that are being written are kept for the page.
-            let kept = inside == Path::new("figure/press.rs") && part == "page";
-            assert!(
-                other <= own || kept,
-                "{} uses {part}, which is below it",
-                inside.display()
-            );
-        }
+        assert!(!code.contains("report::{"), "{}", file.display());
+        // Pictures that are being written are kept for the page.
+        let is_press = file == Path::new("figure/press.rs");
+        parts.retain(|part| !(is_press && *part == "page"));
+        assert_above(&REPORT, (&file, &name), &parts);
     }
-    assert!(seen > 60, "the sources were not found");
 }
 
 #[test]
 fn a_part_of_the_command_line_uses_only_parts_above_it() {
-    let cli = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/cli");
-    let files = sources(&cli);
-    let stem = |path: &PathBuf| path.file_stem().unwrap().to_str().unwrap().to_owned();
-    let stems: Vec<String> = files.iter().map(stem).collect();
-    let names: Vec<&str> = stems.iter().map(String::as_str).collect();
-    let on_map = || SHARED.iter().chain(&ALL_COMMANDS);
-    assert!(
-        on_map().all(|part| names.contains(part)),
-        "a part is missing"
-    );
-    let place = |name: &str| match on_map().position(|part| *part == name) {
-        Some(place) if place < SHARED.len() => place,
-        Some(place) => place + 1,
-        None => SHARED.len(),
-    };
-    let mut commands = Vec::new();
-    for (path, name) in files.iter().zip(&names) {
-        let code = production(&fs::read_to_string(path).unwrap());
-        let mut parts = used(&code, "super::", &names);
+    let files = files_of("src/cli");
+    let names: Vec<&str> = files.iter().map(|(_, name, _)| name.as_str()).collect();
+    let mut commands = names.clone();
+    commands.retain(|name| !SHARED.contains(name) && !ALL_COMMANDS.contains(name));
+    let map = [&SHARED[..], &commands, &ALL_COMMANDS].concat();
+    assert_eq!(map.len(), names.len(), "a part is missing");
+    let mut between = Vec::new();
+    for (file, name, code) in &files {
+        let mut parts = used(code, "super::", &names);
         for list in code.split("super::{").skip(1) {
             let list = list.split(';').next().unwrap();
             parts.extend(used(&format!(" {list}").replace(",", " "), " ", &names));
         }
-        for part in &parts {
-            let is_above = place(part) <= place(name);
-            assert!(is_above, "{name} uses {part}, which is below it");
-        }
-        if place(name) == SHARED.len() {
-            commands.push((name, parts));
-        }
+        let is_command = commands.contains(&name.as_str());
+        let of_commands = |part: &&str| is_command && commands.contains(part);
+        let (others, above): (Vec<&str>, Vec<_>) = parts.into_iter().partition(of_commands);
+        assert_above(&map, (file, name), &above);
+        between.push((name.as_str(), others));
     }
     // What uses none of those that are left is in no circle with them.
     let mut before = usize::MAX;
-    while commands.len() < before {
-        before = commands.len();
-        let left: Vec<&str> = commands.iter().map(|(name, _)| **name).collect();
-        commands.retain(|(_, parts)| parts.iter().any(|part| left.contains(part)));
+    while between.len() < before {
+        before = between.len();
+        let left: Vec<&str> = between.iter().map(|(name, _)| *name).collect();
+        between.retain(|(_, others)| others.iter().any(|o| left.contains(o)));
     }
-    assert!(commands.is_empty(), "in a circle: {commands:?}");
+    assert!(between.is_empty(), "in a circle: {between:?}");
 }
 
 #[test]
 fn material_indenter_drive_contact_and_cycle_do_not_know_one_another() {
     for (module, file, used) in modules() {
-        if STRANGERS.contains(&MODULES[module]) {
+        if STRANGERS.contains(&module.as_str()) {
             for name in used {
-                let stranger = STRANGERS.contains(&name) && name != MODULES[module];
+                let stranger = STRANGERS.contains(&name) && name != module;
                 assert!(!stranger, "{} uses {name}", file.display());
             }
         }
@@ -287,7 +252,7 @@ fn material_indenter_drive_contact_and_cycle_do_not_know_one_another() {
 fn no_production_code_rests_on_the_reference_solutions() {
     for (module, file, used) in modules() {
         // The reproduction of the base paper draws closed forms as lines and compares with them.
-        let own = ["reference", "reproduction"].contains(&MODULES[module]);
+        let own = ["reference", "reproduction"].contains(&module.as_str());
         assert!(own || !used.contains(&"reference"), "{}", file.display());
     }
 }
@@ -305,31 +270,25 @@ fn every_source_file_opens_by_saying_what_it_is_for() {
 
 #[test]
 fn nothing_is_printed_by_macros_that_panic_where_nobody_can_hear() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    for path in sources(&src) {
+    for (file, _, code) in files_of("src") {
         // The last two are modules of tests in files of their own.
         let apart = ["core/build.rs", "tests.rs", "noisy.rs"];
-        if apart.iter().any(|file| path.ends_with(file)) {
-            continue;
-        }
-        let text = fs::read_to_string(&path).unwrap();
-        let code = production(&text);
-        for line in code.lines() {
-            // With and without an e before, and a line's end.
-            let prints = line.contains("println!(") || line.contains("print!(");
-            assert!(!prints, "{}: {line}", path.display());
-        }
+        let is_apart = apart.iter().any(|apart| file.ends_with(apart));
+        // With and without an e before, and a line's end.
+        let prints = |line: &&str| line.contains("println!(") || line.contains("print!(");
+        let printed = code.lines().find(prints);
+        assert!(
+            is_apart || printed.is_none(),
+            "{}: {printed:?}",
+            file.display()
+        );
     }
 }
 
 #[test]
 fn only_the_command_line_knows_flags() {
-    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    for path in sources(&src) {
-        let code = production(&fs::read_to_string(&path).unwrap());
-        let inside = path.strip_prefix(&src).unwrap();
-        if !inside.starts_with("cli") {
-            assert!(!code.contains("clap"), "{}", inside.display());
-        }
+    for (file, _, code) in files_of("src") {
+        let may = file.starts_with("cli");
+        assert!(may || !code.contains("clap"), "{}", file.display());
     }
 }

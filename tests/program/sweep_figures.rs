@@ -203,10 +203,7 @@ fn every_figure_is_known_by_name_and_another_sweep_clears_it() {
         }
         assert!(names.iter().all(|name| files::is_result(name)), "{names:?}");
     }
-    let all: BTreeSet<String> = files::FIGURES
-        .iter()
-        .map(|name| (*name).to_owned())
-        .collect();
+    let all: BTreeSet<String> = files::FIGURES.iter().copied().map(str::to_owned).collect();
     // One curve has no maps, no peaks along an axis, and no figure for a further axis.
     assert!(one.figures().is_subset(&two.figures()) && one.figures().len() < two.figures().len());
     assert_eq!(four.figures(), all);
