@@ -42,6 +42,22 @@ fn is_picture(name: &str) -> bool {
 }
 
 #[test]
+fn a_folder_with_a_key_of_a_newer_program_is_refused_at_its_place_and_left_as_it_is() {
+    let place = folders::inputs();
+    place.done("sweep small.toml --out out");
+    let newer = place
+        .text("out/resolved.toml")
+        .replace("[cycle]\n", "[cycle]\nfuture = 1\n");
+    place.put("out/resolved.toml", newer);
+    let before = place.files("out");
+    says(
+        &place.refused("report out"),
+        &["unknown key `cycle.future`", "out/resolved.toml:"],
+    );
+    assert_eq!(place.files("out"), before);
+}
+
+#[test]
 fn what_is_drawn_again_is_the_same_to_the_byte_and_another_size_is_another_picture() {
     let place = folders::inputs();
     place.lend(HISTORIES);
