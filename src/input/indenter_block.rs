@@ -20,9 +20,9 @@ use crate::indenter::height_map::{
 };
 use crate::indenter::shifted::OFFSET;
 use crate::indenter::{
-    Asperities, Asperity, Cone, Ellipsoid, FILE, FlatPunch, HeightMap, Indenter, IndenterError,
-    PowerLaw, PowerLawKeys, Profile, Roughness, SHA256, Setting, Shifted, Sphere, data_file,
-    in_range,
+    Asperities, Asperity, Cone, ConeKeys, Ellipsoid, FILE, FlatPunch, HeightMap, Indenter,
+    IndenterError, PowerLaw, PowerLawKeys, Profile, Roughness, SHA256, Setting, Shifted, Sphere,
+    data_file, in_range,
 };
 use crate::material::Material;
 use crate::quantity::block;
@@ -35,7 +35,7 @@ choice! {
     /// The shape; what it needs is listed below.
     SHAPE = "shape", Shape, BY_SHAPE:
     Sphere(Sphere);
-    Cone(Cone);
+    Cone(ConeKeys);
     FlatPunch(FlatPunch);
     Ellipsoid(Ellipsoid);
     PowerLaw(PowerLawKeys);
@@ -80,7 +80,7 @@ pub(super) fn read(table: TableReader<'_>) -> Made {
     block.0.has(&INDENTER_MATERIAL);
     let made = match shape.value {
         Shape::Sphere => block.of_keys(&shape, in_range::<Sphere>),
-        Shape::Cone => block.of_keys(&shape, Cone::checked),
+        Shape::Cone => block.of_keys(&shape, Cone::of),
         Shape::FlatPunch => block.of_keys(&shape, in_range::<FlatPunch>),
         Shape::Ellipsoid => block.of_keys(&shape, in_range::<Ellipsoid>),
         Shape::PowerLaw => block.of_keys(&shape, PowerLaw::of),

@@ -11,43 +11,48 @@ use crate::quantity::key::{Kind, quantity};
 block! {
     /// A cone.
     #[derive(Copy)]
-    pub struct Cone in "cone" sealed {
+    pub struct ConeKeys in "cone" {
         /// Angle between axis and flank; 90 deg is a plane.
         half_angle_rad: f64 => "half_angle", Kind::Number(quantity(Dimension::Angle).above_zero().such_as("\"70 deg\""));
     }
 }
 
+/// A rigid cone. Small slopes: the linear theory asks for a half angle near 90 degrees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cone {
+    keys: ConeKeys,
+    /// cot(alpha), which gaps are asked for at every place and instant.
+    slope: f64,
+}
+
 impl Cone {
-    /// A cone of this half angle (rad), between 0 and pi/2. Small slopes: the linear theory asks for one near pi/2.
+    /// A cone of this half angle (rad), between 0 and pi/2.
     pub fn new(half_angle_rad: f64) -> Result<Self, IndenterError> {
-        Self { half_angle_rad }.checked()
+        Self::of(ConeKeys { half_angle_rad })
     }
 
-    /// The cone, where it is none that is refused by [`Cone::new`].
-    pub fn checked(self) -> Result<Self, IndenterError> {
-        let half_angle_rad = self.half_angle_rad;
-        match half_angle_rad > 0.0 && half_angle_rad < FRAC_PI_2 && self.slope() > 0.0 {
-            true => Ok(self),
+    /// The same of its keys.
+    pub fn of(keys: ConeKeys) -> Result<Self, IndenterError> {
+        let half_angle_rad = keys.half_angle_rad;
+        let slope = half_angle_rad.tan().recip();
+        match half_angle_rad > 0.0 && half_angle_rad < FRAC_PI_2 && slope > 0.0 {
+            true => Ok(Self { keys, slope }),
             false => Err(IndenterError::HalfAngle { half_angle_rad }),
         }
-    }
-
-    fn slope(&self) -> f64 {
-        self.half_angle_rad.tan().recip()
     }
 }
 
 impl Indenter for Cone {
     fn shape(&self) -> &'static str {
-        Self::NAME
+        ConeKeys::NAME
     }
 
     fn parameters(&self) -> Vec<Setting> {
-        self.settings().collect()
+        self.keys.settings().collect()
     }
 
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {
-        x_m.hypot(y_m) * self.slope()
+        x_m.hypot(y_m) * self.slope
     }
 
     fn axisymmetric(&self) -> Option<&dyn Axisymmetric> {
@@ -56,14 +61,14 @@ impl Indenter for Cone {
 
     /// Love and Sneddon: W = (pi/2) a^2 cot(alpha) / C.
     fn elastic_half_width_m(&self, load_n: f64, compliance_per_pa: f64) -> f64 {
-        (2.0 * load_n * compliance_per_pa / (PI * self.slope())).sqrt()
+        (2.0 * load_n * compliance_per_pa / (PI * self.slope)).sqrt()
     }
 }
 
 impl Axisymmetric for Cone {
     /// G(x) = (pi/2) x cot(alpha).
     fn transformed_gap_m(&self, x_m: f64) -> f64 {
-        FRAC_PI_2 * x_m * self.slope()
+        FRAC_PI_2 * x_m * self.slope
     }
 
     /// The apex makes the pressure grow like the logarithm of 1/r.

@@ -27,7 +27,7 @@ pub mod shifted;
 mod sphere;
 
 pub use asperities::{Asperities, Asperity};
-pub use cone::Cone;
+pub use cone::{Cone, ConeKeys};
 pub use ellipsoid::Ellipsoid;
 pub use flat_punch::FlatPunch;
 pub use height_map::{HeightMap, MapEdge, MapQuantity};
