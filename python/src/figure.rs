@@ -73,7 +73,7 @@ impl Figure {
     pub fn all(figures: impl IntoIterator<Item = figure::Figure>, plan: &FigurePlan) -> Vec<Self> {
         let figures = figures.into_iter();
         let named = figures.map(|figure| Self {
-            name: figure.name.to_owned(),
+            name: figure.name.to_string(),
             picture: figure.picture,
             plan: plan.clone(),
         });

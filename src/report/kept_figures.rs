@@ -85,7 +85,7 @@ impl KeptFigures {
         page: impl FnOnce(&Pictures, &str) -> Result<String, ReportError>,
     ) -> Result<(Self, Vec<String>), ReportError> {
         Self::of(figures, setting, |pictures| match figures.first() {
-            Some(first) => page(pictures, first.name),
+            Some(first) => page(pictures, &first.name),
             None => Ok(String::new()),
         })
     }
@@ -104,7 +104,7 @@ impl KeptFigures {
         for figure in figures {
             match figure.picture.draw() {
                 Ok(_) => kept.push(Kept {
-                    name: figure.name.to_owned(),
+                    name: figure.name.to_string(),
                     caption: figure.caption.text(setting),
                     data: String::from_utf8_lossy(&figure.data).into_owned(),
                     picture: figure.picture.clone(),

@@ -96,7 +96,7 @@ pub enum ReportError {
     #[cfg(feature = "report")]
     #[error("cannot draw {name}: {source}")]
     Chart {
-        name: &'static str,
+        name: String,
         source: chart::ChartError,
     },
     #[error("cannot normalise the figures: {0}")]

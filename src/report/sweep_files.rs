@@ -106,10 +106,10 @@ fn picture_in_si(
     let mut in_si = plan.clone();
     in_si.figures.axes = AxisUnits::Si;
     let (figures, _) = figure::of_sweep::figures(&in_si, outcome)?;
-    for figure in figures.iter().filter(|f| page::FIGURES.contains(&f.name)) {
+    for figure in figures.iter().filter(|f| page::FIGURES.contains(&&*f.name)) {
         match figure.picture.draw() {
-            Ok(drawing) => pictures.insert(figure.name, &drawing),
-            Err(error) => pictures.insert_failure(figure.name, &error),
+            Ok(drawing) => pictures.insert(&figure.name, &drawing),
+            Err(error) => pictures.insert_failure(&figure.name, &error),
         }
     }
     Ok(())

@@ -225,17 +225,24 @@ fn captions_hold_the_numbers_of_the_data_and_are_the_description_of_the_picture(
     let place = swept("");
     let caption = place.text("out/energy-loss.caption.txt");
     let table = place.table("out/energy-loss.csv");
-    let peaks: Vec<_> = table.rows.iter().filter(|row| row[0] == "peak").collect();
+    // Every point of the curve is a case of the sweep.
+    let sweep = place.table("out/sweep.csv");
+    for column in ["angular_frequency_rad_per_s", "energy_loss_j", "energy_loss_error_j"] {
+        assert_eq!(table.found(column), sweep.found(column), "{column}");
+    }
+    let summary = place.json("out/summary.json");
+    let peaks = summary["peaks"].as_array().unwrap();
     assert!(!peaks.is_empty());
-    for peak in &peaks {
-        let number = |place: usize| peak[place].parse::<f64>().unwrap();
+    for peak in peaks {
+        let number = |key: &str| peak[key].as_f64().unwrap();
         // To the digits that the error leaves, at least three of them.
-        let micro = format!("{:.2}", 1e6 * number(4));
+        let micro = format!("{:.2}", 1e6 * number("energy_loss_j"));
         assert!(caption.contains(&micro[..3]), "{micro}: {caption}");
         // Fixed from a hundredth on.
-        let omega = match number(3) < 0.01 {
-            true => format!("{:e}", number(3))[..3].to_owned(),
-            false => format!("{:.4}", number(3)),
+        let omega = number("angular_frequency_rad_per_s");
+        let omega = match omega < 0.01 {
+            true => format!("{omega:e}")[..3].to_owned(),
+            false => format!("{omega:.4}"),
         };
         assert!(caption.contains(&omega), "{omega}: {caption}");
     }

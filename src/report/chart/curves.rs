@@ -47,7 +47,7 @@ fn curve(series: &Series, layout: &Layout) -> Curve {
             .flatten()
             .map(|&point| layout.px(point))
             .collect();
-        if series.line.is_some() {
+        if series.line.is_some() && series.curve.is_none() {
             curve.parts.extend(clip(&line, &reach));
         }
         // A point alone has no line.
@@ -67,6 +67,10 @@ fn curve(series: &Series, layout: &Layout) -> Curve {
                 .collect();
             curve.fills.push(frame.clip_polygon(&outline));
         }
+    }
+    for run in series.curve.iter().flat_map(|c| c.split(Option::is_none)) {
+        let line: Vec<Point> = run.iter().flatten().map(|&at| layout.px(at)).collect();
+        curve.parts.extend(clip(&line, &reach));
     }
     let marked = match series.spaced {
         true => &spaced(&series.points, layout),

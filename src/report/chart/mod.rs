@@ -237,6 +237,9 @@ pub struct Series {
     /// `(x, y)`; `None` breaks the line where a value is absent.
     pub points: Vec<Option<(f64, f64)>>,
     pub line: Option<LineStyle>,
+    /// The line where it is not the polygon through the points: a smooth curve through them.
+    #[serde(default)]
+    pub curve: Option<Vec<Option<(f64, f64)>>>,
     pub marker: Option<Marker>,
     pub color: Color,
     /// Fills the area between the curve and this y with the full colour: see [`Series::area_to`].
@@ -257,6 +260,7 @@ impl Series {
             label: None,
             points: points.into_iter().map(Into::into).collect(),
             line: Some(LineStyle::Solid),
+            curve: None,
             marker: None,
             color: Color::Palette(0),
             area_to: None,

@@ -1,30 +1,26 @@
 //! The loss of two results over frequency, and below it by how much they differ.
 
-use super::units::Units;
-use super::{Drawn, Figure, Picture};
-use crate::quantity::FrequencyUnit;
+use super::plot::{Plot, Point, Quantity, Trace};
+use super::quantity::ENERGY_LOSS;
+use super::units::{Measure, Units};
+use super::{Drawn, Figure};
 use crate::report::caption::Caption;
-use crate::report::chart::{Axis, Chart, LineStyle, Marker, Series};
+use crate::report::chart::{LineStyle, Marker};
 use crate::report::comparison::{Comparison, CurvePoint};
-use crate::report::number::{at_frequency, largest, range, scientific};
+use crate::report::number::{at_frequency, range, scientific};
 
-const NAME: &str = "comparison";
-const WIDTH_PX: u32 = 800;
-const CURVES_PX: u32 = 450;
-const DIFFERENCE_PX: u32 = 300;
+const DIFFERENCE: Quantity =
+    Quantity::new("relative_difference", "new − baseline", Measure::Percent);
 
 /// The figure; its data are the table of the comparison.
 pub fn figure(comparison: &Comparison) -> Drawn {
-    let (curve, unit) = (&comparison.curve, comparison.unit);
+    let curve = &comparison.curve;
     if curve.iter().all(|p| p.relative_difference().is_none()) {
         return Err("no figure: no case has a loss in both results");
     }
-    Ok(Figure {
-        name: NAME,
-        picture: Picture(vec![losses(curve, unit), differences(curve, unit)]),
-        caption: caption(comparison),
-        data: Vec::new(),
-    })
+    let units = Units::in_si(comparison.unit);
+    let frames = frames(curve, &units);
+    Ok(Figure::of("comparison", &frames, caption(comparison), &units).without_data())
 }
 
 fn caption(comparison: &Comparison) -> Caption {
@@ -46,51 +42,35 @@ fn caption(comparison: &Comparison) -> Caption {
         .say_all(largest)
 }
 
-/// Points, broken where the condition changes.
-fn points(
-    (curve, unit): (&[CurvePoint], FrequencyUnit),
-    value: impl Fn(&CurvePoint) -> Option<f64>,
-) -> Vec<Option<(f64, f64)>> {
+/// The losses of both results, or how far they are apart, over frequency: broken where the condition changes.
+fn trace(curve: &[CurvePoint], value: impl Fn(&CurvePoint) -> Option<f64>) -> Trace {
     let condition = |p: &CurvePoint| (p.place.varied, p.place.drive_mean, p.place.drive_amplitude);
-    let point = |p: &CurvePoint| Some((unit.of(p.place.angular_frequency_rad_per_s), value(p)?));
+    let point = |p: &CurvePoint| Point::new(p.place.angular_frequency_rad_per_s, value(p));
     let parts = curve.chunk_by(|a, b| condition(a) == condition(b));
-    let parts: Vec<Vec<_>> = parts.map(|part| part.iter().map(point).collect()).collect();
-    parts.join(&None)
+    let parts: Vec<Vec<Point>> = parts.map(|part| part.iter().map(point).collect()).collect();
+    let x = parts
+        .first()
+        .and_then(|part| part.first())
+        .map_or(0.0, |first| first.x);
+    Trace::line(parts.join(&Point::new(x, None)))
 }
 
-/// The axis of both panels, with the same ends, where there is more than one frequency.
-fn frequencies(curve: &[CurvePoint], unit: FrequencyUnit, label: &str) -> Axis {
-    let omegas = curve.iter().map(|p| p.place.angular_frequency_rad_per_s);
-    match range(omegas.map(|omega| unit.of(omega))) {
-        (low, high) if low < high => Axis::log(label).range(low, high),
-        _ => Axis::log(label),
-    }
-}
-
-fn losses(curve: &[CurvePoint], unit: FrequencyUnit) -> Chart {
-    let all = curve.iter().flat_map(|p| [p.baseline_j, p.new_j]).flatten();
-    let (factor, energy) = Units::in_si(unit).energy(largest(all));
-    let scaled = |loss: Option<f64>| loss.map(|j| factor * j);
-    Chart::new(
-        frequencies(curve, unit, ""),
-        Axis::linear(format!("energy loss per cycle / {energy}")),
-    )
-    .series(Series::line(points((curve, unit), |p| scaled(p.baseline_j))).label("baseline"))
-    .series(
-        Series::line(points((curve, unit), |p| scaled(p.new_j)))
-            .label("new")
-            .style(LineStyle::Dashed)
-            .color(1),
-    )
-    .size(WIDTH_PX, CURVES_PX)
-}
-
-fn differences(curve: &[CurvePoint], unit: FrequencyUnit) -> Chart {
-    let percent = |p: &CurvePoint| p.relative_difference().map(|d| 100.0 * d);
-    Chart::new(
-        frequencies(curve, unit, &Units::in_si(unit).frequency_title()),
-        Axis::linear("new − baseline / %"),
-    )
-    .series(Series::line(points((curve, unit), percent)).marker(Marker::Disc))
-    .size(WIDTH_PX, DIFFERENCE_PX)
+fn frames(curve: &[CurvePoint], units: &Units) -> [Plot; 2] {
+    let (low, high) = range(curve.iter().map(|p| p.place.angular_frequency_rad_per_s));
+    let frame = |y: Quantity, traces: Vec<Trace>| {
+        Plot::new(Quantity::frequency(units), y)
+            .traces(traces)
+            .x_ends(low, high)
+    };
+    let baseline = trace(curve, |p| p.baseline_j).label("baseline");
+    let new = trace(curve, |p| p.new_j).label("new");
+    let difference = trace(curve, CurvePoint::relative_difference).marker(Marker::Disc);
+    [
+        frame(
+            ENERGY_LOSS,
+            vec![baseline, new.style(LineStyle::Dashed).color(1)],
+        )
+        .height(450),
+        frame(DIFFERENCE, vec![difference]).height(300),
+    ]
 }

@@ -1,9 +1,11 @@
-//! The cases of a sweep as curves over frequency: one, or one per value of a second axis; and which of many are shown.
+//! The cases of a sweep as curves over frequency or over another axis, one for each value of the others; and which of many are shown.
 
+use std::collections::BTreeMap;
+
+use super::plot::Quantity;
 use super::units::Units;
 use crate::report::ReportError;
-use crate::report::table::{Cell, csv_leading};
-use crate::sweep::plan::{Axes, AxisValues, Block, Condition, SweepPlan};
+use crate::sweep::plan::{AxisValue, Block, Condition, SweepPlan, Varied};
 use crate::sweep::record::{CaseRecord, CaseResult};
 use crate::sweep::search::peak::Peak;
 use crate::sweep::search::run::Outcome;
@@ -15,48 +17,149 @@ pub struct Curve<'a> {
     pub label: Option<String>,
     /// The same for a caption.
     pub sentence: Option<String>,
+    /// Its value of [`SweepCurves::family`] (SI).
+    pub member: Option<f64>,
     pub records: Vec<&'a CaseRecord>,
 }
 
-/// The curves of a sweep, in the order of its conditions, labelled in these units; those without any case are left out.
+/// What a value of an axis is called in a legend, and in a caption.
+fn words_of(varied: &Varied, value: AxisValue, units: &Units) -> [String; 2] {
+    let value = units.varied_value(varied, value);
+    let said = match varied.is_whole() {
+        true => value,
+        false => format!("{} {value}", varied.name()),
+    };
+    let of = match varied.block {
+        Block::Drive => "Drive",
+        Block::Indenter => "Indenter",
+        Block::Layer => "Layer",
+        Block::Material => "Material",
+    };
+    let sentence = format!("{of}: {said}.");
+    [said, sentence]
+}
+
+/// What a curve is called that has these values, and the same for a caption; nothing of no value.
+fn called<'v>(
+    values: impl Iterator<Item = (&'v Varied, AxisValue)>,
+    units: &Units,
+) -> [Option<String>; 2] {
+    let words = values.map(|(varied, value)| words_of(varied, value, units));
+    let (labels, sentences): (Vec<String>, Vec<String>) =
+        words.map(|[label, sentence]| (label, sentence)).unzip();
+    let joined = |words: Vec<String>, by: &str| (!words.is_empty()).then(|| words.join(by));
+    [joined(labels, ", "), joined(sentences, " ")]
+}
+
+/// The curves of a sweep over frequency, in the order of its conditions, labelled in these units; those without any case are left out.
 pub fn curves<'a>(plan: &SweepPlan, outcome: &'a Outcome, units: &Units) -> Vec<Curve<'a>> {
     let over = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
     // Records stand curve after curve, in the order of the conditions.
     let mut rest = outcome.records.iter().peekable();
     let conditions = plan.conditions();
     let curves = conditions.iter().map(|condition| {
-        let (mut words, mut sentences) = (Vec::new(), Vec::new());
-        for (varied, value) in over.iter().zip(condition.values.all()) {
-            let value = units.varied_value(varied, *value);
-            let said = match varied.is_whole() {
-                true => value,
-                false => format!("{} {value}", varied.name()),
-            };
-            let of = match varied.block {
-                Block::Drive => "Drive",
-                Block::Indenter => "Indenter",
-                Block::Layer => "Layer",
-                Block::Material => "Material",
-            };
-            sentences.push(format!("{of}: {said}."));
-            words.push(said);
-        }
+        let values = over.iter().zip(condition.values.all().iter().copied());
+        let [label, sentence] = called(values, units);
         Curve {
-            label: (!words.is_empty()).then(|| words.join(", ")),
-            sentence: (!words.is_empty()).then(|| sentences.join(" ")),
+            label,
+            sentence,
             records: std::iter::from_fn(|| rest.next_if(|record| record.is_of(condition)))
                 .collect(),
+            member: condition.number(),
             condition: condition.clone(),
         }
     });
     curves.filter(|curve| !curve.records.is_empty()).collect()
 }
 
-/// A sweep as its figures show it.
+/// The curves of a sweep over one of its axes: one for each frequency and each value of the other axes that has two cases or more.
+fn curves_over<'a>(
+    plan: &SweepPlan,
+    outcome: &'a Outcome,
+    axis: usize,
+    units: &Units,
+) -> Vec<Curve<'a>> {
+    let over = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
+    // Of pairs the numbers vary together: the others are where the axis is.
+    let is_paired = plan.axes.as_ref().is_some_and(|axes| axes.pairs);
+    let others = |record: &CaseRecord| {
+        let values = record.varied.all().iter().copied().enumerate();
+        let others = values.filter(|(other, _)| *other != axis && !is_paired);
+        others.map(|(_, value)| value).collect::<Vec<_>>()
+    };
+    let mut groups: BTreeMap<(u64, Vec<u64>), Vec<&CaseRecord>> = BTreeMap::new();
+    for record in &outcome.records {
+        // Of frequencies, which are above zero, the bits have the order of the numbers.
+        let omega = record.angular_frequency_rad_per_s.to_bits();
+        let values = others(record).into_iter().map(|v| v.as_number().to_bits());
+        groups
+            .entry((omega, values.collect()))
+            .or_default()
+            .push(record);
+    }
+    let has_one_frequency = plan.angular_frequencies_rad_per_s.len() == 1;
+    let conditions = plan.conditions();
+    let curve = |mut records: Vec<&'a CaseRecord>| {
+        let value = |record: &CaseRecord| record.varied.get(axis).map_or(0.0, AxisValue::as_number);
+        records.sort_by(|a, b| value(a).total_cmp(&value(b)));
+        let first = *records.first()?;
+        let varied = over.iter().enumerate();
+        let varied = varied.filter(|(other, _)| *other != axis && !is_paired);
+        let values = varied.map(|(_, varied)| varied).zip(others(first));
+        let [label, sentence] = called(values, units);
+        let omega = first.angular_frequency_rad_per_s;
+        let at = units.frequency_label(omega);
+        let is_labelled = !has_one_frequency || label.is_none();
+        let at = is_labelled.then_some(at);
+        let label: Vec<String> = at.into_iter().chain(label).collect();
+        Some(Curve {
+            member: match has_one_frequency && over.len() == 2 {
+                true => others(first).first().and_then(|value| value.number()),
+                false => Some(omega),
+            },
+            label: Some(label.join(", ")),
+            sentence,
+            condition: conditions.iter().find(|c| first.is_of(c))?.clone(),
+            records,
+        })
+    };
+    let groups = groups.into_values().filter(|records| records.len() > 1);
+    groups.filter_map(curve).collect()
+}
+
+/// What curves are drawn over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Abscissa {
+    Frequency,
+    /// The axis at this place, which varies a number.
+    Axis(usize),
+}
+
+impl Abscissa {
+    /// The frequency; where a sweep has but one, its first axis of numbers.
+    pub fn of(plan: &SweepPlan) -> Self {
+        let over = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
+        let is_numbers = |varied: &Varied| !varied.is_whole();
+        match (
+            plan.angular_frequencies_rad_per_s.len(),
+            over.iter().position(is_numbers),
+        ) {
+            (1, Some(axis)) => Self::Axis(axis),
+            _ => Self::Frequency,
+        }
+    }
+}
+
+/// A sweep as its figures show it: as curves over one quantity.
 pub struct SweepCurves<'a> {
     pub plan: &'a SweepPlan,
     pub outcome: &'a Outcome,
     pub units: Units,
+    pub over: Abscissa,
+    /// What the curves are drawn over.
+    pub x: Quantity,
+    /// Of which number each curve has another, where it is one.
+    pub family: Option<Quantity>,
     pub curves: Vec<Curve<'a>>,
 }
 
@@ -65,14 +168,63 @@ impl<'a> SweepCurves<'a> {
     ///
     /// # Errors
     /// [`ReportError::Scale`] where normalised axes are asked for and there is nothing to normalise by.
-    pub fn of(plan: &'a SweepPlan, outcome: &'a Outcome) -> Result<Self, ReportError> {
+    pub fn of(
+        plan: &'a SweepPlan,
+        outcome: &'a Outcome,
+        over: Abscissa,
+    ) -> Result<Self, ReportError> {
         let units = Units::of_sweep(plan)?;
+        let control = plan.base.drive.control();
+        let axes = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
+        let varied = |axis: usize| axes.get(axis).map(|of| Quantity::varied(of, control));
+        let is_one_frequency = plan.angular_frequencies_rad_per_s.len() == 1;
+        // Of curves that differ in several numbers, none tells which they are.
+        let (x, family, curves) = match over {
+            Abscissa::Frequency => {
+                let is_number = axes.first().filter(|of| !of.is_whole() && axes.len() == 1);
+                let family = is_number.and_then(|_| varied(0));
+                (None, family, curves(plan, outcome, &units))
+            }
+            Abscissa::Axis(axis) => {
+                let mut others = (0..axes.len()).filter(|other| *other != axis);
+                let family = match (others.next(), others.next(), is_one_frequency) {
+                    (None, _, _) => Some(Quantity::frequency(&units)),
+                    (Some(other), None, true) if !axes[other].is_whole() => varied(other),
+                    _ => None,
+                };
+                (
+                    varied(axis),
+                    family,
+                    curves_over(plan, outcome, axis, &units),
+                )
+            }
+        };
         Ok(Self {
-            curves: curves(plan, outcome, &units),
+            x: x.unwrap_or_else(|| Quantity::frequency(&units)),
+            family,
+            curves,
+            over,
             plan,
             outcome,
             units,
         })
+    }
+
+    /// Where a case stands on the abscissa (SI).
+    pub fn place(&self, record: &CaseRecord) -> f64 {
+        match self.over {
+            Abscissa::Frequency => record.angular_frequency_rad_per_s,
+            Abscissa::Axis(axis) => {
+                let value = record.varied.get(axis);
+                value.map_or(f64::NAN, AxisValue::as_number)
+            }
+        }
+    }
+
+    /// At most `most` of the curves, evenly spread.
+    pub fn shown(&self, most: usize) -> Vec<&Curve<'a>> {
+        let places = evenly(self.curves.len(), most).into_iter();
+        places.filter_map(|k| self.curves.get(k)).collect()
     }
 
     /// All cases, curve by curve.
@@ -80,49 +232,48 @@ impl<'a> SweepCurves<'a> {
         self.curves.iter().flat_map(|curve| &curve.records).copied()
     }
 
-    /// The values of the second axis, one for each curve.
-    pub fn values(&self) -> impl DoubleEndedIterator<Item = f64> {
-        let curves = self.curves.iter();
-        curves.filter_map(|curve| curve.condition.number())
+    /// The peaks on a curve; over other axes than the frequency there are none.
+    pub fn peaks_of(&self, curve: &Curve<'_>) -> impl Iterator<Item = &'a Peak> {
+        let peaks = match self.over {
+            Abscissa::Frequency => &self.outcome.peaks[..],
+            Abscissa::Axis(_) => &[],
+        };
+        peaks.iter().filter(|peak| peak.is_of(&curve.condition))
     }
 
-    /// A table of cases or peaks: these columns, then where they are in the sweep, then these numbers.
-    pub fn table<R: IntoIterator<Item = Cell>>(
-        &self,
-        first: &[&str],
-        numbers: &[&str],
-        rows: impl IntoIterator<Item = (Vec<Cell>, R)>,
-    ) -> Vec<u8> {
-        let own = self.plan.axes.iter().flat_map(Axes::own_columns);
-        let own: Vec<String> = own.map(|(_, varied)| varied.column()).collect();
-        let place = own.iter().map(String::as_str);
-        let place = place.chain(["drive_mean", "drive_amplitude"]);
-        let columns = first.iter().copied().chain(place);
-        let columns: Vec<&str> = columns.chain(numbers.iter().copied()).collect();
-        let rows = rows.into_iter().map(|(mut row, numbers)| {
-            row.extend(numbers);
-            row
-        });
-        csv_leading(self.units.frequency_unit(), &columns, rows)
+    /// What is drawn over what, for a caption: `over angular frequency ω`; of several curves how many and of what.
+    pub fn over_words(&self, shown: usize) -> String {
+        let over = &self.x.words;
+        match (&self.family, self.curves.len()) {
+            (_, 0 | 1) => format!("over {over}"),
+            (Some(family), _) => format!("over {over}, {shown} curves, one per {}", family.words),
+            (None, _) => format!("over {over}, {shown} curves"),
+        }
     }
 
-    /// Where a case is in the sweep, as the cells of a table: the varied numbers, mean and amplitude.
-    pub fn place_of(&self, record: &CaseRecord) -> Vec<Cell> {
-        self.place(record.varied, [record.drive_mean, record.drive_amplitude])
+    /// What a case is called on its curve: its frequency, or its value of the axis.
+    pub fn label_of(&self, record: &CaseRecord) -> String {
+        match self.over {
+            Abscissa::Frequency => {
+                let omega = record.angular_frequency_rad_per_s;
+                self.units.frequency_label(omega)
+            }
+            Abscissa::Axis(_) => {
+                let value = self.units.value(self.x.measure, self.place(record), 4);
+                format!("{} {value}", self.x.words)
+            }
+        }
     }
 
-    /// The same of a peak.
-    pub fn place_of_peak(&self, peak: &Peak) -> Vec<Cell> {
-        let drive = &self.plan.base.drive;
-        let mean = peak.drive_mean.unwrap_or(drive.mean());
-        let amplitude = peak.drive_amplitude.unwrap_or(drive.amplitude());
-        self.place(peak.varied, [mean, amplitude])
+    /// Whether a figure of single cases shows those of one curve among several.
+    pub fn is_of_one_curve(&self) -> bool {
+        let axes = self.plan.axes.as_ref();
+        !axes.is_some_and(|axes| axes.over.len() == 1 && axes.varied().is_whole())
     }
 
-    fn place(&self, varied: AxisValues, drive: [f64; 2]) -> Vec<Cell> {
-        let own = self.plan.axes.iter().flat_map(Axes::own_columns);
-        let own = own.map(|(axis, of)| Cell::of_axis(of, varied.get(axis)));
-        own.chain(drive.map(Cell::from)).collect()
+    /// The condition of a case.
+    pub fn condition(&self, record: &CaseRecord) -> Option<&'a Condition> {
+        self.plan.conditions().iter().find(|c| record.is_of(c))
     }
 }
 

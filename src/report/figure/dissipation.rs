@@ -1,13 +1,13 @@
 //! Which relaxation branch dissipates: the energy loss over frequency as a stack of the losses of the branches.
 
-use super::curve::Curve;
-use super::units::Units;
+use super::curve::{Curve, SweepCurves};
+use super::plot::{Plot, Point, Spread, Trace};
+use super::quantity::ENERGY_LOSS;
 use super::{Drawn, Figure};
 use crate::quantity::{Dimension, format_human};
 use crate::report::caption::Caption;
-use crate::report::chart::{Axis, Chart, Color, Series};
+use crate::report::chart::Color;
 use crate::report::number::{largest, scientific};
-use crate::report::table::{cells, csv_leading};
 use crate::report::words::listed;
 use crate::sweep::record::{BranchLoss, CaseRecord, CaseResult, Status};
 
@@ -16,10 +16,10 @@ const BANDS: usize = 8;
 const OTHERS: Color = Color::Rgb(0xC4, 0xC4, 0xC4);
 
 /// The figure, of one curve: bands by retardation time, the longest at the bottom, the area of the loop as a line.
-pub fn figure(curve: &Curve<'_>, units: &Units) -> Drawn {
+pub fn figure(sweep: &SweepCurves<'_>, curve: &Curve<'_>) -> Drawn {
     let results = curve.results();
     if results.len() < 2 {
-        return Err("no dissipation figure: it takes two frequencies with a result");
+        return Err("no dissipation figure: it takes two cases with a result on one curve");
     }
     let bands = bands(&results);
     if bands.is_empty() {
@@ -30,10 +30,6 @@ pub fn figure(curve: &Curve<'_>, units: &Units) -> Drawn {
             _ => "no dissipation figure: the material has no relaxation branches",
         });
     }
-    let losses = results.iter().map(|(_, r)| r.analysis.energy_loss_j);
-    let (factor, unit) = units.energy(largest(losses));
-    let omega = |record: &CaseRecord| units.frequency().0 * record.angular_frequency_rad_per_s;
-    // From the total downwards: each area covers the lower part of the one before.
     let of = bands.iter().filter(|band| !band.is_rest).count();
     let areas = bands.iter().enumerate().map(|(k, band)| {
         let color = match band.is_rest {
@@ -45,57 +41,50 @@ pub fn figure(curve: &Curve<'_>, units: &Units) -> Drawn {
             },
         };
         let points = curve.records.iter().map(|record| {
-            let place = results.iter().position(|(r, _)| r.index == record.index)?;
-            let below = bands[k..].iter().filter_map(|b| b.losses_j.get(place));
-            Some((omega(record), factor * below.sum::<f64>()))
+            let place = results.iter().position(|(r, _)| r.index == record.index);
+            let loss = place.and_then(|place| band.losses_j.get(place).copied());
+            Point::new(sweep.place(record), loss)
         });
-        let area = Series::line(points).area_to(0.0);
-        area.label(band.label.clone()).color(color)
+        Trace {
+            area_to: Some(0.0),
+            ..Trace::line(points).label(&band.label).color(color)
+        }
     });
     let records = curve.records.iter();
-    let total = records.map(|r| Some((omega(r), factor * r.energy_loss_j()?)));
-    let chart = Chart::new(
-        Axis::log(units.frequency_title()),
-        Axis::linear(format!("energy loss per cycle / {unit}")),
-    )
-    .maybe_title(curve.label.clone())
-    .all_series(areas)
-    .series(
-        Series::line(total)
-            .label("area of the loop")
-            .color(Color::Rgb(0, 0, 0)),
-    );
-    Ok(Figure {
-        name: "dissipation",
-        picture: chart.into(),
-        caption: caption(curve, &results, &bands, units),
-        data: data(&results, units),
-    })
+    let total = records.map(|r| Point::new(sweep.place(r), r.energy_loss_j()));
+    let total = Trace::line(total)
+        .label("area of the loop")
+        .color(Color::Rgb(0, 0, 0));
+    let plot = Plot::new(sweep.x.clone(), ENERGY_LOSS.spread(Spread::Linear))
+        .title(curve.label.clone())
+        .traces(areas)
+        .traces([total]);
+    let caption = caption(sweep, curve, &results, &bands);
+    Ok(Figure::of("dissipation", &[plot], caption, &sweep.units))
 }
 
 fn caption(
+    sweep: &SweepCurves<'_>,
     curve: &Curve<'_>,
     results: &[(&CaseRecord, &CaseResult)],
     bands: &[Band],
-    units: &Units,
 ) -> Caption {
     let loss = |place: &usize| results[*place].1.analysis.energy_loss_j;
     let largest = (0..results.len()).max_by(|a, b| loss(a).total_cmp(&loss(b)));
     let shares = largest.filter(|place| loss(place) > 0.0).map(|place| {
-        let omega = results[place].0.angular_frequency_rad_per_s;
         let share = |band: &Band| {
             let part = band.losses_j.get(place).copied().unwrap_or_default() / loss(&place);
             format!("{} % ({})", scientific(100.0 * part, 3), band.label)
         };
         format!(
             "At {}, where the computed loss is largest, they dissipate {} of it.",
-            units.at(omega),
+            sweep.label_of(results[place].0),
             listed(&bands.iter().map(share).collect::<Vec<_>>())
         )
     });
     Caption::new(format!(
         "Energy loss per cycle over {}, by retardation time λ of the branches that dissipate it",
-        units.frequency_words()
+        sweep.x.words
     ))
         .say("Areas: dissipated by the branches, from their memory alone; line: area of the hysteresis loop.")
         .say_all(curve.sentence.clone().into_iter().chain(shares))
@@ -180,26 +169,6 @@ fn with_rest(bands: Vec<Band>) -> Vec<Band> {
         is_rest: true,
     };
     std::iter::once(others).chain(kept).collect()
-}
-
-fn data(results: &[(&CaseRecord, &CaseResult)], units: &Units) -> Vec<u8> {
-    let columns = [
-        "angular_frequency_rad_per_s",
-        "retardation_time_s",
-        "branch_loss_j",
-        "energy_loss_j",
-    ];
-    let rows = results.iter().flat_map(|(record, result)| {
-        result.branches.iter().map(|branch| {
-            cells![
-                record.angular_frequency_rad_per_s,
-                branch.retardation_time_s,
-                branch.energy_loss_j,
-                result.analysis.energy_loss_j,
-            ]
-        })
-    });
-    csv_leading(units.frequency_unit(), &columns, rows)
 }
 
 #[cfg(test)]

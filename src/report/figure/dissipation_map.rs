@@ -1,7 +1,8 @@
 //! Where the energy goes in, over the surface: the work per cycle and area at the frequency of the largest loss.
 
 use super::curve::Curve;
-use super::units::Units;
+use super::quantity::WORK_PER_AREA;
+use super::units::{Measure, Units};
 use super::{Drawn, Figure};
 use crate::quantity::Dimension;
 use crate::report::caption::Caption;
@@ -25,7 +26,7 @@ pub fn figure(curve: &Curve<'_>, units: &Units) -> Drawn {
         None => frequency,
     };
     Ok(Figure {
-        name: "dissipation-map",
+        name: "dissipation-map".into(),
         picture: field.chart(title, units).into(),
         caption: caption(curve, record, units),
         data: data(&result.cycle.surface_loss),
@@ -119,22 +120,20 @@ impl Field {
     fn chart(self, title: String, units: &Units) -> Chart {
         let [(left, right), (low, high)] = [self.x_range_m, self.y_range_m];
         let reach = [left, right, low, high].map(f64::abs);
-        let (to_length, length) = units.length(largest(reach));
+        let length = units.shown(Measure::Length, largest(reach));
         let densities = self.map.values.iter().flatten();
-        let (to_density, unit) = units.density(largest(densities.map(|d| d.abs())));
+        let density = units.shown(Measure::EnergyPerArea, largest(densities.map(|d| d.abs())));
         let mut map = self.map;
-        map.value_label = format!("work per cycle and area / {unit}");
+        map.value_label = density.title(&WORK_PER_AREA.words);
         for value in map.values.iter_mut().flatten() {
-            *value *= to_density;
+            *value = density.of(*value);
         }
-        let x = Axis::linear(format!("x / {length}"));
-        let y = Axis::linear(format!("y / {length}"));
-        Chart::new(
-            x.range(to_length * left, to_length * right),
-            y.range(to_length * low, to_length * high),
-        )
-        .title(title)
-        .map(map)
+        let axis = |name: &str, from: f64, to: f64| {
+            Axis::linear(length.title(name)).range(length.of(from), length.of(to))
+        };
+        Chart::new(axis("x", left, right), axis("y", low, high))
+            .title(title)
+            .map(map)
     }
 }
 

@@ -1,106 +1,167 @@
-//! A quantity over both axes of a sweep, frequency and the second one, as a map: coloured between the cases, which are dots.
+//! A quantity over two axes of a sweep as a map, coloured between the cases: over frequency and a second axis, or at one frequency
+//! over two axes.
 
 use super::curve::{Curve, SweepCurves};
-use super::moduli_error::WIDE;
-use super::{axis, scale};
+use super::plot::{Plot, Point, Quantity, Spread, Trace, is_even, scale};
+use super::{Drawn, Figure};
+use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, HeatMap, MapShape, Scale};
-use crate::report::number::range;
-use crate::report::table::Cell;
-use crate::sweep::plan::Axes;
+use crate::report::number::{largest, range};
 use crate::sweep::record::CaseRecord;
 
 /// Cells that are coloured.
 const COLUMNS: usize = 128;
 const ROWS: usize = 96;
+/// Values along each axis from which a map shows more than curves do.
+const LEAST: usize = 4;
 /// Cases that are dots, at most; more would hide the colours.
-const DOTS: usize = 6000;
-/// Values that vary by more than this have colours on a logarithmic scale.
+const DOTS: usize = 200;
+/// Values that vary by more than this have colours on a logarithmic scale; the second axis likewise.
 const WIDE_COLOURS: f64 = 30.0;
+const WIDE: f64 = 8.0;
 
 /// What is mapped.
 pub struct Mapped<'a> {
+    pub name: &'static str,
+    pub caption: Caption,
+    pub quantity: Quantity,
     pub value: &'a dyn Fn(&CaseRecord) -> Option<f64>,
-    pub label: String,
-    /// (angular frequency, varied number) of what is pointed out.
+    pub error: &'a dyn Fn(&CaseRecord) -> Option<f64>,
+    /// (place on the abscissa, on the second axis) of what is pointed out.
     pub rings: Vec<(f64, f64)>,
 }
 
-/// The map; `None` where there are not two frequencies under each of two conditions to colour between.
-pub fn chart(sweep: &SweepCurves<'_>, axes: &Axes, mapped: Mapped<'_>) -> Option<Chart> {
-    let varied = axes.varied();
-    let to_omega = sweep.units.frequency().0;
-    let (first, last) = range(sweep.records().map(|r| r.angular_frequency_rad_per_s));
-    let (low, high) = (sweep.values().next()?, sweep.values().next_back()?);
-    if first >= last || low >= high {
+/// The map of a sweep whose curves are a family.
+pub fn figure(sweep: &SweepCurves<'_>, mapped: Mapped<'_>) -> Drawn {
+    const TOO_FEW: &str = "no map: it takes four values with results along each of two axes of numbers; curves show fewer";
+    let family = sweep.family.clone().ok_or(TOO_FEW)?;
+    let rows = sweep
+        .curves
+        .iter()
+        .filter_map(|curve| Row::of(sweep, curve, mapped.value));
+    let mut rows: Vec<Row> = rows.collect();
+    rows.sort_by(|a, b| a.place.total_cmp(&b.place));
+    let columns = rows.iter().map(|row| row.cases.len()).max();
+    if rows.len() < LEAST || columns.is_none_or(|columns| columns < LEAST) {
+        return Err(TOO_FEW);
+    }
+    let chart = chart(sweep, &family, &rows, &mapped).ok_or(TOO_FEW)?;
+    let cases = sweep.records().count();
+    let dots = match cases <= DOTS {
+        true => "Dots: computed cases, coloured linearly between",
+        false => "Coloured linearly between the computed cases",
+    };
+    let traces = sweep.curves.iter().map(|curve| {
+        let points = curve.records.iter().map(|record| {
+            let value = (mapped.value)(record);
+            Point::new(sweep.place(record), value).error((mapped.error)(record))
+        });
+        Trace::line(points).member(curve.member)
+    });
+    let y = mapped.quantity.clone();
+    let table = Plot::new(sweep.x.clone(), y).family(family).traces(traces);
+    let caption = mapped
+        .caption
+        .say(format!("{dots}; lines: labelled values."));
+    let figure = Figure::of(mapped.name, &[table], caption, &sweep.units);
+    Ok(Figure {
+        picture: chart.into(),
+        ..figure
+    })
+}
+
+fn chart(
+    sweep: &SweepCurves<'_>,
+    family: &Quantity,
+    rows: &[Row],
+    mapped: &Mapped<'_>,
+) -> Option<Chart> {
+    let places = || rows.iter().flat_map(|row| &row.cases).map(|case| case.0);
+    let (left, right) = range(places());
+    let (low, high) = (rows.first()?.place, rows.last()?.place);
+    if left >= right || low >= high {
         return None;
     }
-    let unit = sweep.units.varied(&varied, low.abs().max(high.abs()));
-    let title = unit.title(&varied, sweep.plan.base.drive.control());
-    let x = Axis::log(sweep.units.frequency_title()).range(to_omega * first, to_omega * last);
-    let y = axis((low, high), WIDE, title).range(unit.of(low), unit.of(high));
-    let value_scale = scale(
-        range(sweep.records().filter_map(mapped.value)),
-        WIDE_COLOURS,
-    );
-    let curves = sweep.curves.iter();
-    let rows = curves.filter_map(|curve| Row::of(curve, [y.scale, value_scale], mapped.value));
+    let values = || {
+        rows.iter()
+            .flat_map(|row| &row.cases)
+            .filter_map(|case| case.1)
+    };
+    let colours = scale(range(values()), WIDE_COLOURS);
+    let members: Vec<f64> = rows.iter().map(|row| row.place).collect();
+    let along = |quantity: &Quantity, (from, to): (f64, f64), all: &[f64]| {
+        let shown = sweep
+            .units
+            .shown(quantity.measure, from.abs().max(to.abs()));
+        let axis = Axis {
+            label: shown.title(&quantity.words),
+            scale: match quantity.spread {
+                Spread::Log => Scale::Log,
+                _ if is_even(all) => Scale::Linear,
+                _ => scale((from, to), WIDE),
+            },
+            range: Some((shown.of(from), shown.of(to))),
+        };
+        (axis, shown)
+    };
+    let (x, to_x) = along(&sweep.x, (left, right), &places().collect::<Vec<_>>());
+    let (y, to_y) = along(family, (low, high), &members);
     let grid = Grid {
-        rows: rows.collect(),
+        rows,
+        scales: [x.scale, y.scale, colours],
     };
-    let on = |scale: Scale, (from, to): (f64, f64), k: usize, count: usize| {
-        let (from, to) = (scale.linearised(from), scale.linearised(to));
-        from + (to - from) * (k as f64 + 0.5) / count as f64
+    let (unit, cells) = {
+        let unit = sweep
+            .units
+            .shown(mapped.quantity.measure, largest(values().map(f64::abs)));
+        let cell = |k: usize| {
+            let x = middle(x.scale, (left, right), (k % COLUMNS, COLUMNS));
+            let y = middle(y.scale, (low, high), (k / COLUMNS, ROWS));
+            Some(unit.of(colours.value(grid.at(x, y)?)))
+        };
+        let cells: Vec<Option<f64>> = (0..COLUMNS * ROWS).map(cell).collect();
+        (unit, cells)
     };
-    let cell = |i: usize| {
-        let x = on(Scale::Log, (first, last), i % COLUMNS, COLUMNS);
-        let y = on(y.scale, (low, high), i / COLUMNS, ROWS);
-        Some(value_scale.value(grid.at(x, y)?))
-    };
-    let values: Vec<Option<f64>> = (0..COLUMNS * ROWS).map(cell).collect();
-    values.iter().any(Option::is_some).then_some(())?;
-    let place = |omega: f64, value: f64| (to_omega * omega, unit.of(value));
-    let points = sweep.curves.iter().flat_map(|curve| {
-        let value = curve.condition.number();
-        let there = curve.records.iter().filter(|r| (mapped.value)(r).is_some());
-        there.filter_map(move |r| Some(place(r.angular_frequency_rad_per_s, value?)))
+    cells.iter().any(Option::is_some).then_some(())?;
+    let points = rows.iter().flat_map(|row| {
+        let there = row.cases.iter().filter(|case| case.1.is_some());
+        there.map(|case| (to_x.of(case.0), to_y.of(row.place)))
     });
+    let points: Vec<(f64, f64)> = points.collect();
     let rings = mapped.rings.iter();
     let map = HeatMap {
         columns: COLUMNS,
         rows: ROWS,
-        values,
-        value_label: mapped.label,
+        values: cells,
+        value_label: unit.title(&mapped.quantity.words),
         value_range: None,
-        value_scale,
+        value_scale: colours,
         contours: true,
-        points: match has_dots(sweep) {
-            true => points.collect(),
-            false => Vec::new(),
+        points: if points.len() <= DOTS {
+            points
+        } else {
+            Vec::new()
         },
-        rings: rings.map(|(omega, value)| place(*omega, *value)).collect(),
+        rings: rings.map(|(at, of)| (to_x.of(*at), to_y.of(*of))).collect(),
         shape: MapShape::Stretched,
     };
     Some(Chart::new(x, y).map(map))
 }
 
-fn has_dots(sweep: &SweepCurves<'_>) -> bool {
-    sweep.records().count() <= DOTS
+/// The middle of a cell on the scale of an axis.
+fn middle(scale: Scale, (from, to): (f64, f64), (k, count): (usize, usize)) -> f64 {
+    let (from, to) = (scale.linearised(from), scale.linearised(to));
+    from + (to - from) * (k as f64 + 0.5) / count as f64
 }
 
-/// What a map shows of the cases: dots, where they have room.
-pub fn words(sweep: &SweepCurves<'_>) -> &'static str {
-    match has_dots(sweep) {
-        true => "Dots: computed cases, coloured linearly between",
-        false => "Coloured linearly between the computed cases",
-    }
+/// Rows at ascending places of the second axis.
+struct Grid<'a> {
+    rows: &'a [Row],
+    /// Of the abscissa, of the second axis and of the values.
+    scales: [Scale; 3],
 }
 
-/// Values on their scale, row by row, each along its own frequencies.
-struct Grid {
-    rows: Vec<Row>,
-}
-
-/// One value of the second axis, and (logarithm of the frequency, value or `None`), ascending.
+/// One value of the second axis, and (place on the abscissa, value or `None`), ascending.
 struct Row {
     place: f64,
     cases: Vec<(f64, Option<f64>)>,
@@ -113,74 +174,34 @@ fn neighbours<T>(all: &[T], number: impl Fn(&T) -> f64, of: f64) -> Option<(&T, 
     Some((low, high, (of - number(low)) / (number(high) - number(low))))
 }
 
-impl Grid {
-    /// Linear between the neighbours; `None` beside a case without a value.
+impl Grid<'_> {
+    /// Linear between the neighbours on the scales; `None` beside a case without a value.
     fn at(&self, x: f64, y: f64) -> Option<f64> {
-        let (low, high, part) = neighbours(&self.rows, |row| row.place, y)?;
-        let (from, to) = (low.at(x)?, high.at(x)?);
+        let [x_scale, y_scale, colours] = self.scales;
+        let place = |row: &Row| y_scale.linearised(row.place);
+        let (low, high, part) = neighbours(self.rows, place, y)?;
+        let in_row = |row: &Row| {
+            let place = |case: &(f64, Option<f64>)| x_scale.linearised(case.0);
+            let (left, right, part) = neighbours(&row.cases, place, x)?;
+            let (from, to) = (colours.linearised(left.1?), colours.linearised(right.1?));
+            Some(from + part * (to - from))
+        };
+        let (from, to) = (in_row(low)?, in_row(high)?);
         Some(from + part * (to - from))
     }
 }
 
 impl Row {
     fn of(
+        sweep: &SweepCurves<'_>,
         curve: &Curve<'_>,
-        [y_scale, value_scale]: [Scale; 2],
         value: &dyn Fn(&CaseRecord) -> Option<f64>,
     ) -> Option<Self> {
-        let case = |record: &&CaseRecord| {
-            let value = value(record).map(|value| value_scale.linearised(value));
-            (record.angular_frequency_rad_per_s.log10(), value)
-        };
+        let records = curve.records.iter();
+        let case = |record: &&CaseRecord| (sweep.place(record), value(record));
         Some(Self {
-            place: y_scale.linearised(curve.condition.number()?),
-            cases: curve.records.iter().map(case).collect(),
+            place: curve.member?,
+            cases: records.map(case).collect(),
         })
-    }
-
-    fn at(&self, x: f64) -> Option<f64> {
-        let (left, right, part) = neighbours(&self.cases, |case| case.0, x)?;
-        let (from, to) = (left.1?, right.1?);
-        Some(from + part * (to - from))
-    }
-}
-
-/// A column of a table: its name, and its value for a case.
-pub type Column<'a> = (&'a str, &'a dyn Fn(&CaseRecord) -> Option<f64>);
-
-/// The table behind a map: the cases.
-pub fn data(sweep: &SweepCurves<'_>, columns: &[Column<'_>]) -> Vec<u8> {
-    let mut names = vec!["angular_frequency_rad_per_s"];
-    names.extend(columns.iter().map(|(name, _)| name));
-    let rows = sweep.records().map(|record| {
-        let numbers = columns.iter().map(|(_, value)| value(record).into());
-        let omega = Cell::from(record.angular_frequency_rad_per_s);
-        let numbers = [omega].into_iter().chain(numbers);
-        (sweep.place_of(record), numbers.collect::<Vec<_>>())
-    });
-    sweep.table(&[], &names, rows)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn between_the_cases_a_bilinear_function_is_reproduced_and_beside_a_gap_is_nothing() {
-        let f = |x: f64, y: f64| 1.0 + 2.0 * x - 3.0 * y + 0.5 * x * y;
-        let row = |y: f64, xs: &[f64]| Row {
-            place: y,
-            cases: xs.iter().map(|&x| (x, Some(f(x, y)))).collect(),
-        };
-        let mut grid = Grid {
-            // Each row has frequencies of its own.
-            rows: vec![row(0.0, &[0.0, 1.0, 4.0]), row(2.0, &[0.0, 2.0, 4.0])],
-        };
-        for (x, y) in [(0.3, 0.1), (1.7, 1.9), (3.9, 1.0), (0.0, 0.0), (4.0, 2.0)] {
-            assert!((grid.at(x, y).unwrap() - f(x, y)).abs() < 1e-14);
-        }
-        assert_eq!(grid.at(4.1, 1.0), None);
-        grid.rows[0].cases[1].1 = None;
-        assert_eq!(grid.at(0.3, 0.1), None);
     }
 }

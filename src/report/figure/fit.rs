@@ -1,20 +1,20 @@
 //! Data against the series fitted to them, and the relative difference between the two.
 
-use super::{Figure, axis};
+use super::Figure;
+use super::plot::{Plot, Quantity, Spread, Trace};
+use super::quantity::{RESIDUAL, TIME};
+use super::units::{Measure, Units};
 use crate::material::MaterialFunction;
 use crate::material::fit::Fit;
 use crate::material::tabulated::Tabulated;
 use crate::report::caption::Caption;
-use crate::report::chart::{Axis, Chart, Marker, Series};
-use crate::report::number::{prefix, range};
+use crate::report::chart::Marker;
 use crate::report::table::{cells, csv};
 
-/// Points of the fitted curve; most symbols along it, between which it can still be seen, and most symbols without a curve;
-/// ratio of values from which the axis is logarithmic.
+/// Points of the fitted curve; most symbols along it, between which it can still be seen, and most symbols without a curve.
 const CURVE: usize = 400;
 const SYMBOLS_ON_CURVE: usize = 50;
 const SYMBOLS: usize = 2000;
-const WIDE: f64 = 20.0;
 
 /// Two figures, `fit` and `fit-residual`. A sample at time zero has no place on their logarithmic axis; it is in the data.
 pub fn figures(table: &Tabulated, fit: &Fit) -> Vec<Figure> {
@@ -42,69 +42,64 @@ fn shown(table: &Tabulated, most: usize) -> Vec<(f64, f64)> {
     positive.into_iter().filter(far_enough).collect()
 }
 
-fn curves(table: &Tabulated, fit: &Fit) -> Figure {
+/// What was measured, as an axis.
+fn measured(table: &Tabulated) -> Quantity {
     let symbol = table.function().symbol(table.kind());
-    let values = range(table.values().iter().copied());
-    let (factor, label) = match table.function() {
-        MaterialFunction::Relaxation => {
-            let (factor, unit) = prefix(values.1);
-            (factor, format!("relaxation modulus {symbol}(t) / {unit}Pa"))
-        }
-        // A compliance per GPa where moduli are in GPa.
-        MaterialFunction::Creep => {
-            let (factor, unit) = prefix(values.1.recip());
-            let label = format!("creep compliance {symbol}(t) / {unit}Pa⁻¹");
-            (factor.recip(), label)
-        }
+    let (column, words, measure) = match table.function() {
+        MaterialFunction::Relaxation => (
+            "relaxation_modulus_pa",
+            "relaxation modulus",
+            Measure::Modulus,
+        ),
+        MaterialFunction::Creep => (
+            "creep_compliance_per_pa",
+            "creep compliance",
+            Measure::Compliance,
+        ),
     };
+    Quantity::new(column, "", measure)
+        .called(format!("{words} {symbol}(t)"))
+        .spread(Spread::OfValues)
+}
+
+fn curves(table: &Tabulated, fit: &Fit) -> Figure {
     let symbols = shown(table, SYMBOLS_ON_CURVE);
     let samples = table.times_s().len();
-    let data = match symbols.len() + 1 < samples {
+    let label = match symbols.len() + 1 < samples {
         true => format!("data ({} of {samples} samples)", symbols.len()),
         false => "data".to_owned(),
     };
-    let symbols = symbols.into_iter().map(|(t, v)| (t, factor * v));
-    let data = Series::scatter(symbols).marker(Marker::Ring).label(data);
     let (from, to) = positive_range_s(table);
     let curve = (0..=CURVE).map(|i| {
         let time_s = from * (to / from).powf(i as f64 / CURVE as f64);
-        let value = factor * fit.series().value(time_s);
-        // A modulus that has relaxed to nothing has no place on a logarithmic axis.
-        (value > 0.0).then_some((time_s, value))
+        (time_s, fit.series().value(time_s))
     });
-    let chart = Chart::new(Axis::log("time t / s"), axis(values, WIDE, label))
-        .series(data)
-        .series(Series::line(curve).label("fit").color(1));
-    Figure {
-        name: "fit",
-        picture: chart.into(),
-        caption: caption(table, fit, "Data and the series fitted to them"),
-        data: data_table(table, fit),
-    }
+    let plot = Plot::new(TIME.spread(Spread::Log), measured(table)).traces([
+        Trace::symbols(symbols).marker(Marker::Ring).label(label),
+        Trace::line(curve).label("fit").color(1),
+    ]);
+    let caption = caption(table, fit, "Data and the series fitted to them");
+    Figure::of("fit", &[plot], caption, &Units::default()).with_data(data_table(table, fit))
 }
 
 fn residual(table: &Tabulated, fit: &Fit) -> Figure {
-    let percent = |(t, v): (f64, f64)| (t, 100.0 * (fit.series().value(t) / v - 1.0));
-    let points = shown(table, SYMBOLS).into_iter().map(percent);
+    let off = |time_s: f64, value: f64| fit.series().value(time_s) / value - 1.0;
+    let points = shown(table, SYMBOLS).into_iter();
+    let points = points.map(|(time_s, value)| (time_s, off(time_s, value)));
     let (from, to) = positive_range_s(table);
-    let chart = Chart::new(
-        Axis::log("time t / s"),
-        Axis::linear("difference fit − data / % of the data"),
-    )
-    .series(Series::line([(from, 0.0), (to, 0.0)]).color(1))
-    .series(Series::scatter(points).marker(Marker::Ring));
+    let plot = Plot::new(TIME.spread(Spread::Log), RESIDUAL).traces([
+        Trace::guide([(from, 0.0), (to, 0.0)]).color(1),
+        Trace::symbols(points).marker(Marker::Ring),
+    ]);
     let samples = table.times_s().iter().zip(table.values());
-    let rows = samples.map(|(&t, value)| cells![t, fit.series().value(t) / value - 1.0]);
-    Figure {
-        name: "fit-residual",
-        picture: chart.into(),
-        caption: caption(
-            table,
-            fit,
-            "Relative difference of the fitted series from the data",
-        ),
-        data: csv(&["time_s", "relative_difference"], rows),
-    }
+    let rows = samples.map(|(&time_s, &value)| cells![time_s, off(time_s, value)]);
+    let caption = caption(
+        table,
+        fit,
+        "Relative difference of the fitted series from the data",
+    );
+    Figure::of("fit-residual", &[plot], caption, &Units::default())
+        .with_data(csv(&["time_s", "relative_difference"], rows))
 }
 
 fn caption(table: &Tabulated, fit: &Fit, shows: &str) -> Caption {
@@ -171,7 +166,7 @@ mod tests {
         assert_eq!(chart_of(&few[0]).series[0].label.as_deref(), Some("data"));
     }
 
-    fn chart_of(figure: &Figure) -> &Chart {
+    fn chart_of(figure: &Figure) -> &crate::report::chart::Chart {
         &figure.picture.0[0]
     }
 

@@ -1,43 +1,43 @@
-//! Second harmonic of the approach over frequency and second axis: how far the contact is from a linear one.
+//! Second harmonic of the approach over two axes of a sweep: how far the contact is from a linear one.
 
+use super::Drawn;
 use super::curve::SweepCurves;
 use super::drive_map::{self, Mapped};
-use super::{Drawn, Figure};
+use super::plot::Quantity;
+use super::units::Measure;
 use crate::drive::Control;
 use crate::report::caption::Caption;
 use crate::report::number::{largest, scientific};
-use crate::sweep::plan::Axes;
 use crate::sweep::record::CaseRecord;
 
+const SECOND: Quantity = Quantity::new(
+    "harmonic_2",
+    "second harmonic of the approach over the first",
+    Measure::Percent,
+);
+
 /// The figure.
-pub fn figure(sweep: &SweepCurves<'_>, axes: &Axes) -> Drawn {
+pub fn figure(sweep: &SweepCurves<'_>) -> Drawn {
     if sweep.plan.base.drive.control() == Control::Approach {
         return Err("no harmonic-2 map: the approach is prescribed and has none");
     }
-    let mapped = Mapped {
-        value: &|record| Some(100.0 * second(record)?),
-        label: "second harmonic of the approach / % of the first".to_owned(),
-        rings: Vec::new(),
-    };
-    let chart = drive_map::chart(sweep, axes, mapped).ok_or(
-        "no harmonic-2 map: it takes two frequencies with results under each of two values of the second axis",
-    )?;
     let largest = scientific(100.0 * largest(sweep.records().filter_map(second)), 3);
-    Ok(Figure {
-        name: "harmonic-2-map",
-        picture: chart.into(),
-        caption: Caption::new(format!(
-            "Second harmonic of the approach relative to its first, over {} and {}",
-            sweep.units.frequency_words(),
-            axes.varied().words()
-        ))
-        .say(format!(
-            "{}; lines: the values labelled at the colour bar.",
-            drive_map::words(sweep)
-        ))
-        .say(format!("Largest computed: {largest} %.")),
-        data: drive_map::data(sweep, &[("harmonic_2", &second)]),
-    })
+    let words = sweep.family.as_ref().map_or("", |family| &family.words);
+    let caption = Caption::new(format!(
+        "Second harmonic of the approach relative to its first, over {} and {words}",
+        sweep.x.words
+    ));
+    drive_map::figure(
+        sweep,
+        Mapped {
+            name: "harmonic-2-map",
+            caption: caption.say(format!("Largest computed: {largest} %.")),
+            quantity: SECOND,
+            value: &second,
+            error: &|_| None,
+            rings: Vec::new(),
+        },
+    )
 }
 
 fn second(record: &CaseRecord) -> Option<f64> {

@@ -1,7 +1,7 @@
 //! One axis of a sweep over several: the sweep along it, the other axes at their values where the loss is largest.
 
 use super::Figure;
-use super::curve::{SweepCurves, curves, largest};
+use super::curve::{Abscissa, SweepCurves, curves, largest};
 use super::units::Units;
 use crate::report::ReportError;
 use crate::report::number;
@@ -23,8 +23,8 @@ impl Line {
     ///
     /// # Errors
     /// As [`SweepCurves::of`].
-    pub fn curves(&self) -> Result<SweepCurves<'_>, ReportError> {
-        SweepCurves::of(&self.plan, &self.outcome)
+    pub fn curves(&self, over: Abscissa) -> Result<SweepCurves<'_>, ReportError> {
+        SweepCurves::of(&self.plan, &self.outcome, over)
     }
 
     /// A figure along the axis, with where the others are held in its caption.

@@ -1,61 +1,84 @@
-//! Hysteresis loops at a few frequencies of the sweep: load against approach.
+//! Hysteresis loops: load against approach at a few frequencies of the sweep, or of every material or indenter of a list.
 
 use super::Figure;
-use super::curve::{Curve, chosen};
-use super::units::Units;
+use super::curve::{Curve, SweepCurves, chosen, largest};
+use super::plot::{Plot, Trace};
+use super::quantity::{APPROACH, LOAD};
 use crate::quantity::Dimension;
 use crate::report::caption::Caption;
-use crate::report::chart::{Axis, Chart, Color, Series};
-use crate::report::number::{largest, with_error};
-use crate::report::table::{cells, csv_leading};
+use crate::report::chart::Color;
+use crate::report::number::with_error;
 use crate::report::words::listed;
 use crate::sweep::record::{CaseRecord, CaseResult, Status};
 
 /// Loops in one figure; more cannot be told apart.
 pub const LOOPS: usize = 5;
 
-/// The figure: of the converged cases of a curve those nearest to the frequencies asked for (rad/s), or some evenly spread, the
-/// one with the largest loss among them.
-pub fn figure(curve: &Curve<'_>, asked_rad_per_s: &[f64], units: &Units) -> Figure {
-    let chosen = chosen(&curve.results(), asked_rad_per_s, LOOPS);
-    let of = chosen.len();
-    let reach = |signal: fn(&CaseResult) -> &[f64]| {
-        let values = chosen.iter().flat_map(|(_, result)| signal(result));
-        largest(values.map(|value| value.abs()))
-    };
-    let (to_load, load_unit) = units.load(reach(|r| &r.cycle.samples.load_n));
-    let (to_approach, approach_unit) = units.approach(reach(|r| &r.cycle.samples.approach_m));
-    let series = chosen.iter().enumerate().map(|(step, (record, result))| {
-        let samples = &result.cycle.samples;
-        let points = samples.approach_m.iter().zip(&samples.load_n);
-        Series::line(points.map(|(d, w)| (to_approach * d, to_load * w)))
-            .label(units.frequency_label(record.angular_frequency_rad_per_s))
-            .color(Color::Ramp { step, of })
-    });
-    let chart = Chart::new(
-        Axis::linear(format!("approach δ / {approach_unit}")),
-        Axis::linear(format!("load W / {load_unit}")),
-    )
-    .maybe_title(curve.label.clone())
-    .all_series(series);
-    Figure {
-        name: "loops",
-        picture: chart.into(),
-        caption: caption(curve, &chosen, units),
-        data: data(&chosen, units),
-    }
+/// A loop, and what it is called.
+pub struct Shown<'a> {
+    label: String,
+    pub record: &'a CaseRecord,
+    result: &'a CaseResult,
 }
 
-fn caption(curve: &Curve<'_>, chosen: &[(&CaseRecord, &CaseResult)], units: &Units) -> Caption {
-    let loops: Vec<String> = chosen
-        .iter()
-        .map(|(record, result)| {
-            let loss_j = result.analysis.energy_loss_j;
-            let loss = with_error(loss_j, record.energy_loss_error_j(), Dimension::Energy);
-            format!("{loss} at {}", units.at(record.angular_frequency_rad_per_s))
-        })
-        .collect();
-    let mut records = chosen.iter().map(|(record, _)| record.status);
+/// The loops that are drawn. Of the curve of the largest loss those nearest to the frequencies asked for, or some evenly spread, the one of
+/// the largest loss among them; of a list of materials or indenters that of the largest loss of each.
+pub fn shown<'a>(sweep: &SweepCurves<'a>) -> Vec<Shown<'a>> {
+    let at = |record: &CaseRecord| {
+        sweep
+            .units
+            .frequency_label(record.angular_frequency_rad_per_s)
+    };
+    if !sweep.is_of_one_curve() {
+        let of_curve = |curve: &&Curve<'a>| {
+            let (record, result) = curve.largest_result()?;
+            let label = format!("{}, {}", curve.label.as_deref()?, at(record));
+            Some(Shown {
+                label,
+                record,
+                result,
+            })
+        };
+        return sweep.shown(LOOPS).iter().filter_map(of_curve).collect();
+    }
+    let results = largest(&sweep.curves).map_or(Vec::new(), Curve::results);
+    let asked = &sweep.plan.figures.loops_rad_per_s;
+    let chosen = chosen(&results, asked, LOOPS).into_iter();
+    let shown = chosen.map(|(record, result)| Shown {
+        label: sweep.label_of(record),
+        record,
+        result,
+    });
+    shown.collect()
+}
+
+/// The figure.
+pub fn figure(sweep: &SweepCurves<'_>) -> Figure {
+    let shown = shown(sweep);
+    let of = shown.len();
+    let traces = shown.iter().enumerate().map(|(step, one)| {
+        let samples = &one.result.cycle.samples;
+        let points = samples.approach_m.iter().zip(&samples.load_n);
+        Trace::line(points.map(|(approach_m, load_n)| (*approach_m, *load_n)))
+            .label(&one.label)
+            .color(Color::of_family(step, of))
+    });
+    let curve = largest(&sweep.curves).filter(|_| sweep.is_of_one_curve());
+    let plot = Plot::new(APPROACH, LOAD)
+        .title(curve.and_then(|curve| curve.label.clone()))
+        .traces(traces);
+    let caption = caption(curve, &shown);
+    Figure::of("loops", &[plot], caption, &sweep.units)
+}
+
+fn caption(curve: Option<&Curve<'_>>, shown: &[Shown<'_>]) -> Caption {
+    let loops = shown.iter().map(|one| {
+        let loss_j = one.result.analysis.energy_loss_j;
+        let loss = with_error(loss_j, one.record.energy_loss_error_j(), Dimension::Energy);
+        format!("{loss} at {}", one.label)
+    });
+    let loops: Vec<String> = loops.collect();
+    let mut records = shown.iter().map(|one| one.record.status);
     let (of, areas) = match records.any(|status| status == Status::Transient) {
         true => (
             "a cycle on the way to the stabilised one",
@@ -64,19 +87,9 @@ fn caption(curve: &Curve<'_>, chosen: &[(&CaseRecord, &CaseResult)], units: &Uni
         false => ("the stabilised cycle", "Their areas"),
     };
     Caption::new(format!("Hysteresis loops: load W over approach δ in {of}"))
-        .say_all(curve.sentence.clone())
+        .say_all(curve.and_then(|curve| curve.sentence.clone()))
         .say(format!(
             "{areas} are the energy losses per cycle: {}.",
             listed(&loops)
         ))
-}
-
-fn data(chosen: &[(&CaseRecord, &CaseResult)], units: &Units) -> Vec<u8> {
-    let columns = ["angular_frequency_rad_per_s", "approach_m", "load_n"];
-    let rows = chosen.iter().flat_map(|(record, result)| {
-        let (omega, samples) = (record.angular_frequency_rad_per_s, &result.cycle.samples);
-        let points = samples.approach_m.iter().zip(&samples.load_n);
-        points.map(move |(approach, load)| cells![omega, *approach, *load])
-    });
-    csv_leading(units.frequency_unit(), &columns, rows)
 }

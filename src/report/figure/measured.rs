@@ -1,23 +1,22 @@
 //! Figures of measured loops: the loops, over computed ones where there are some; loss and moduli over frequency; the loss from cycle
 //! to cycle.
 
+use super::Figure;
 use super::curve::evenly;
-use super::units::Units;
-use super::{Figure, axis};
+use super::plot::{Plot, Point, Quantity, Spread, Trace};
+use super::quantity::{APPROACH, CYCLE, ENERGY_LOSS, LOAD, MODULUS};
+use super::units::{Measure, Units};
 use crate::measured::bias::Unbiased;
-use crate::measured::{Estimate, Quantity};
+use crate::measured::{Estimate, Quantity as Measured};
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::report::caption::Caption;
-use crate::report::chart::{Axis, Chart, Color, LineStyle, Marker, Series};
+use crate::report::chart::{LineStyle, Marker};
 use crate::report::measured::{Analysis, Computed, MeasuredRow};
-use crate::report::number::{largest, range, scientific, with_error};
-use crate::report::table::{cells, csv};
+use crate::report::number::{largest, scientific, with_error};
 use crate::report::words::listed;
 
 /// Loops in one figure; more cannot be told apart.
 const LOOPS: usize = 5;
-/// Beyond this ratio an axis is logarithmic.
-const WIDE: f64 = 8.0;
 /// What stands in the legend for what was measured, and for what was computed.
 const MEASURED: &str = "measured";
 const COMPUTED: &str = "computed";
@@ -26,6 +25,11 @@ const OF_FORMULA: [&str; 2] = ["E′ of the formula", "E″ of the formula"];
 const WITHOUT_BIAS: [&str; 2] = ["E′ without bias", "E″ without bias"];
 /// A computed frequency belongs to a measured one within this part of it.
 const SAME: f64 = 0.01;
+const DEVIATION: Quantity = Quantity::new(
+    "relative_deviation",
+    "deviation of the loss from the mean",
+    Measure::Percent,
+);
 
 /// The figures that the rows have.
 pub fn figures(analysis: &Analysis) -> Vec<Figure> {
@@ -57,7 +61,7 @@ fn label(row: &MeasuredRow) -> String {
 /// The computed case at the frequency of a row, the nearest in loss where there are several.
 fn beside<'a>(row: &MeasuredRow, computed: &'a [Computed]) -> Option<&'a Computed> {
     let omega = row.angular_rad_per_s()?;
-    let loss_j = row.mean(Quantity::EnergyLoss)?.value;
+    let loss_j = row.mean(Measured::EnergyLoss)?.value;
     let near = |case: &&Computed| (case.angular_rad_per_s / omega - 1.0).abs() < SAME;
     let apart = |case: &Computed| {
         case.energy_loss_j
@@ -77,17 +81,9 @@ fn loops(rows: &[MeasuredRow], computed: &[Computed]) -> Option<Figure> {
             .collect::<Vec<_>>(),
     );
     chosen.first()?;
-    let all = || chosen.iter().flat_map(|(_, points)| *points);
-    let (to_load, load_unit) = units().load(largest(all().map(|p| p.0.abs())));
-    let (to_approach, approach_unit) = units().approach(largest(all().map(|p| p.1.abs())));
-    let at = |(w, d): (f64, f64)| (to_approach * d, to_load * w);
-    let mut chart = Chart::new(
-        Axis::linear(format!("approach δ / {approach_unit}")),
-        Axis::linear(format!("load W / {load_unit}")),
-    );
+    let mut traces = Vec::new();
     let mut lines = "lines are the fitted harmonics";
     for (step, (row, points)) in chosen.iter().enumerate() {
-        let color = ramp(step, &chosen);
         let line = match beside(row, computed) {
             Some(case) => {
                 lines = "lines are the computed loops where there are some, the fitted harmonics elsewhere";
@@ -98,42 +94,43 @@ fn loops(rows: &[MeasuredRow], computed: &[Computed]) -> Option<Figure> {
                 samples.load_n.into_iter().zip(samples.approach_m).collect()
             }
         };
-        let rings = Series::scatter(points.iter().copied().map(at)).marker(Marker::Ring);
-        chart = chart
-            .series(Series::line(line.into_iter().map(at)).color(color))
-            .series(rings.color(color).label(label(row)).spaced());
+        let at = |(load_n, approach_m): (f64, f64)| (approach_m, load_n);
+        let of = |trace: Trace| {
+            trace
+                .of_family(step, chosen.len())
+                .member(row.angular_rad_per_s())
+        };
+        let line = of(Trace::line(line.into_iter().map(at)));
+        let rings = of(Trace::symbols(points.iter().copied().map(at)))
+            .marker(Marker::Ring)
+            .label(label(row))
+            .spaced();
+        traces.extend([
+            Trace {
+                in_table: false,
+                ..line
+            },
+            rings,
+        ]);
     }
+    let plot = Plot::new(APPROACH, LOAD)
+        .family(Quantity::frequency(&units()))
+        .traces(traces);
     let losses: Vec<String> = chosen.iter().filter_map(|(row, _)| loss(row)).collect();
-    let data = chosen.iter().flat_map(|(row, points)| {
-        let omega = row.angular_rad_per_s();
-        points.iter().map(move |(w, d)| cells![omega, *d, *w])
-    });
-    Some(Figure {
-        name: "loops",
-        picture: chart.into(),
-        caption: Caption::new("Measured loops: load W over approach δ, averaged over the cycles")
-            .say(format!(
-                "Rings are averages of samples, drift taken off; {lines}."
-            ))
-            .say(format!(
-                "Their areas are the energy losses per cycle: {}.",
-                listed(&losses)
-            )),
-        data: csv(
-            &["angular_frequency_rad_per_s", "approach_m", "load_n"],
-            data,
-        ),
-    })
-}
-
-fn ramp<T>(step: usize, all: &[T]) -> Color {
-    let of = all.len();
-    Color::Ramp { step, of }
+    let caption = Caption::new("Measured loops: load W over approach δ, averaged over the cycles")
+        .say(format!(
+            "Rings are averages of samples, drift taken off; {lines}."
+        ))
+        .say(format!(
+            "Their areas are the energy losses per cycle: {}.",
+            listed(&losses)
+        ));
+    Some(Figure::of("loops", &[plot], caption, &units()))
 }
 
 /// The loss in words: `3.51 ± 0.02 µJ at f = 1 Hz`.
 fn loss(row: &MeasuredRow) -> Option<String> {
-    let mean = row.mean(Quantity::EnergyLoss)?;
+    let mean = row.mean(Measured::EnergyLoss)?;
     let value = with_error(mean.value, mean.error, Dimension::Energy);
     Some(format!("{value} at {}", label(row)))
 }
@@ -172,78 +169,60 @@ impl<'a> Over<'a> {
         }
     }
 
-    fn series(&self, factor: f64, logarithmic: bool) -> Vec<Series> {
-        let place = |omega: f64, value: f64| {
-            let shown = !logarithmic || value > 0.0;
-            shown.then_some((FrequencyUnit::Hz.of(omega), factor * value))
-        };
+    fn traces(&self) -> impl Iterator<Item = Trace> {
         let points = self.measured.iter();
-        let errors = points.clone().map(|(_, mean)| Some(factor * mean.error?));
-        let points = Series::scatter(points.map(|(omega, mean)| place(*omega, mean.value)))
+        let points = points.map(|(x, mean)| Point::new(*x, mean.value).error(mean.error));
+        let symbols = Trace::symbols(points)
             .marker(self.marker)
             .color(self.color)
-            .label(self.label)
-            .error_bars(errors.collect::<Vec<_>>());
+            .label(self.label);
         let line = (!self.computed.is_empty()).then(|| {
             let label = match self.label {
                 MEASURED => COMPUTED.to_owned(),
                 label => format!("{label}, {COMPUTED}"),
             };
-            Series::line(
-                self.computed
-                    .iter()
-                    .map(|(omega, value)| place(*omega, *value)),
-            )
-            .color(self.color)
-            .label(label)
-            .style(LineStyle::Dashed)
+            Trace::line(self.computed.iter().copied())
+                .color(self.color)
+                .label(label)
+                .style(LineStyle::Dashed)
+                .smooth([])
         });
-        [points].into_iter().chain(line).collect()
+        [symbols].into_iter().chain(line)
     }
 }
 
-/// Numbers over frequencies (Hz).
-fn over_frequency(all: &[Over<'_>], factor: f64, title: String) -> Chart {
-    let measured = || all.iter().flat_map(|over| &over.measured);
-    let frequencies = range(measured().map(|(omega, _)| FrequencyUnit::Hz.of(*omega)));
-    let (least, most) = range(measured().map(|(_, mean)| factor * mean.value));
-    let logarithmic = least > 0.0 && most > 2.0 * WIDE * least;
-    Chart::new(
-        axis(frequencies, WIDE, units().frequency_title()),
-        axis((least, most), 2.0 * WIDE, title),
-    )
-    .all_series(all.iter().flat_map(|over| over.series(factor, logarithmic)))
+/// Numbers over frequencies.
+fn over_frequency(all: &[Over<'_>], y: Quantity) -> Plot {
+    let x = Quantity::frequency(&units()).spread(Spread::OfValues);
+    Plot::new(x, y.spread(Spread::OfValues)).traces(all.iter().flat_map(Over::traces))
 }
 
 fn energy_loss(rows: &[MeasuredRow], computed: &[Computed]) -> Option<Figure> {
     let over = Over::new(
         (MEASURED, Marker::Disc, 0),
-        (rows, |row| row.mean(Quantity::EnergyLoss)),
+        (rows, |row| row.mean(Measured::EnergyLoss)),
         (computed, |case| case.energy_loss_j),
     );
     if over.measured.len() < 2 {
         return None;
     }
-    let (factor, unit) = units().energy(largest(over.measured.iter().map(|(_, m)| m.value.abs())));
-    Some(Figure {
-        name: "energy-loss",
-        picture: over_frequency(&[over], factor, format!("energy loss per cycle / {unit}")).into(),
-        caption: Caption::new("Energy loss per cycle over frequency")
-            .say("Bars are intervals of 95 %, from the scatter of the cycles and the noise of the samples."),
-        data: Vec::new(),
-    })
+    let caption = Caption::new("Energy loss per cycle over frequency").say(
+        "Bars are intervals of 95 %, from the scatter of the cycles and the noise of the samples.",
+    );
+    let plot = over_frequency(&[over], ENERGY_LOSS);
+    Some(Figure::of("energy-loss", &[plot], caption, &units()))
 }
 
 fn moduli(rows: &[MeasuredRow], computed: &[Computed]) -> Option<Figure> {
     let mut all = vec![
         Over::new(
             (OF_FORMULA[0], Marker::Ring, 0),
-            (rows, |row| row.mean(Quantity::StorageModulus)),
+            (rows, |row| row.mean(Measured::StorageModulus)),
             (computed, |case| case.storage_modulus_pa),
         ),
         Over::new(
             (OF_FORMULA[1], Marker::Diamond, 1),
-            (rows, |row| row.mean(Quantity::LossModulus)),
+            (rows, |row| row.mean(Measured::LossModulus)),
             (computed, |case| case.loss_modulus_pa),
         ),
         Over::new(
@@ -259,11 +238,15 @@ fn moduli(rows: &[MeasuredRow], computed: &[Computed]) -> Option<Figure> {
     ];
     all.retain(|over| !over.measured.is_empty());
     let measured = all.iter().flat_map(|over| &over.measured);
-    let highest = largest(measured.map(|(_, mean)| mean.value));
-    if rows.len() < 2 || highest <= 0.0 {
+    if rows.len() < 2 || largest(measured.map(|(_, mean)| mean.value)) <= 0.0 {
         return None;
     }
-    let (factor, unit) = units().modulus(highest);
+    let plot = over_frequency(&all, MODULUS);
+    let caption = caption_of_moduli(rows, &all);
+    Some(Figure::of("moduli", &[plot], caption, &units()))
+}
+
+fn caption_of_moduli(rows: &[MeasuredRow], all: &[Over<'_>]) -> Caption {
     let shown = |labels: [&str; 2]| -> Vec<String> {
         let shown = all.iter().filter(|over| labels.contains(&over.label));
         shown
@@ -286,31 +269,26 @@ fn moduli(rows: &[MeasuredRow], computed: &[Computed]) -> Option<Figure> {
             percent(loss)
         ),
     };
-    Some(Figure {
-        name: "moduli",
-        picture: over_frequency(&all, factor, format!("modulus / {unit}")).into(),
-        caption: Caption::new("Storage modulus E′ and loss modulus E″ read from the loops")
-            .say(format!(
-                "{}: the formula of small amplitudes{without}.",
-                listed(&of_formula)
-            ))
-            .say("Bars are intervals of 95 %."),
-        data: Vec::new(),
-    })
+    Caption::new("Storage modulus E′ and loss modulus E″ read from the loops")
+        .say(format!(
+            "{}: the formula of small amplitudes{without}.",
+            listed(&of_formula)
+        ))
+        .say("Bars are intervals of 95 %.")
 }
 
-/// The number of every cycle, and its relative deviation of its loss from the mean (%), where there are enough of them.
+/// The number of every cycle, and the relative deviation of its loss from the mean, where there are enough of them.
 fn relative_losses(row: &MeasuredRow) -> Option<Vec<(usize, f64)>> {
     let measured = row.measured.as_ref()?;
     let cycles = measured.cycles.iter().zip(&measured.values);
     let mut losses: Vec<(usize, f64)> = cycles
-        .map(|(cycle, values)| Some((cycle.number, values[Quantity::EnergyLoss.place()]?)))
+        .map(|(cycle, values)| Some((cycle.number, values[Measured::EnergyLoss.place()]?)))
         .collect::<Option<_>>()?;
     let last = losses.get(3..)?.last()?.1;
-    let mean = row.mean(Quantity::EnergyLoss);
+    let mean = row.mean(Measured::EnergyLoss);
     let center = mean.map_or(last, |mean| mean.value);
     for (_, loss) in &mut losses {
-        *loss = 100.0 * (*loss / center - 1.0);
+        *loss = *loss / center - 1.0;
     }
     Some(losses)
 }
@@ -321,23 +299,17 @@ fn cycles(rows: &[MeasuredRow]) -> Option<Figure> {
         .filter_map(|row| Some((row, relative_losses(row)?)));
     let chosen = some(&losses.collect::<Vec<_>>());
     chosen.first()?;
-    let series = chosen.iter().enumerate().map(|(step, (row, losses))| {
+    let traces = chosen.iter().enumerate().map(|(step, (row, losses))| {
         let points = losses.iter();
-        Series::line(points.map(|(number, percent)| (*number as f64, *percent)))
-            .marker(Marker::nth(step))
+        Trace::line(points.map(|(number, deviation)| (*number as f64, *deviation)))
+            .marker(Marker::Disc)
+            .of_family(step, chosen.len())
             .label(label(row))
-            .color(ramp(step, &chosen))
+            .member(row.angular_rad_per_s())
     });
-    let chart = Chart::new(
-        Axis::linear("number of the cycle"),
-        Axis::linear("deviation of the loss from the mean / %"),
-    )
-    .all_series(series);
-    let data = chosen.iter().flat_map(|(row, losses)| {
-        let omega = row.angular_rad_per_s();
-        let losses = losses.iter();
-        losses.map(move |(number, percent)| cells![omega, *number, *percent])
-    });
+    let plot = Plot::new(CYCLE, DEVIATION)
+        .family(Quantity::frequency(&units()))
+        .traces(traces);
     let first = |(row, _): &(&MeasuredRow, _)| {
         let first = row.measured.as_ref()?.first_stabilised?;
         Some(format!("{first} at {}", label(row)))
@@ -350,16 +322,8 @@ fn cycles(rows: &[MeasuredRow]) -> Option<Figure> {
             listed(&firsts)
         ),
     };
-    Some(Figure {
-        name: "cycles",
-        picture: chart.into(),
-        caption: Caption::new(
-            "Energy loss of every cycle, relative to the mean of those that count",
-        )
-        .say(holds),
-        data: csv(
-            &["angular_frequency_rad_per_s", "cycle", "relative_percent"],
-            data,
-        ),
-    })
+    let caption =
+        Caption::new("Energy loss of every cycle, relative to the mean of those that count")
+            .say(holds);
+    Some(Figure::of("cycles", &[plot], caption, &units()))
 }

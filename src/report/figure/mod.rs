@@ -1,6 +1,5 @@
 //! Figures, one file each: a chart, its caption and the data behind it. [`press`] writes them in the forms asked for.
 
-pub mod cole_cole;
 pub mod comparison;
 pub mod curve;
 pub mod cycle_losses;
@@ -18,31 +17,65 @@ pub mod identify;
 pub mod line;
 pub mod loops;
 pub mod loss_map;
-pub mod loss_tangent;
 pub mod measured;
 pub mod moduli;
 pub mod moduli_error;
 pub mod of_sweep;
 pub mod peaks_over_axis;
+pub mod plot;
 pub mod press;
 pub mod pressure_map;
 pub mod profiles;
+pub mod quantity;
 pub mod relaxation;
+mod smooth;
 pub mod units;
-pub mod van_gurp_palmen;
+
+use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
+use self::plot::Plot;
+use self::units::Units;
 use super::caption::Caption;
-use super::chart::{self, Axis, Chart, ChartError, Drawing, Scale};
+use super::chart::{self, Chart, ChartError, Drawing};
 
 /// A picture, the name of its files, what is to be said of it, and its data as CSV.
 pub struct Figure {
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     pub picture: Picture,
     pub caption: Caption,
     /// Empty where another file holds them.
     pub data: Vec<u8>,
+}
+
+impl Figure {
+    /// Frames one above another, in these units; their points are the data.
+    pub fn of(
+        name: impl Into<Cow<'static, str>>,
+        plots: &[Plot],
+        caption: Caption,
+        units: &Units,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            picture: Picture(plot::charts(plots, units)),
+            caption: caption.say_all(plot::lines_in_words(plots).map(str::to_owned)),
+            data: plot::table(plots, units.frequency_unit()),
+        }
+    }
+
+    /// The same where another file holds the data.
+    #[must_use]
+    pub fn without_data(self) -> Self {
+        self.with_data(Vec::new())
+    }
+
+    /// The same with another table.
+    #[must_use]
+    pub fn with_data(self, data: Vec<u8>) -> Self {
+        Self { data, ..self }
+    }
 }
 
 /// What a figure shows: a chart, or charts one above another.
@@ -67,19 +100,3 @@ impl Picture {
 
 /// A figure, or why there is none: an empty frame says less than a sentence.
 pub type Drawn = Result<Figure, &'static str>;
-
-/// The scale of values between these two: logarithmic where they are positive and more than `wide` times apart.
-fn scale((least, largest): (f64, f64), wide: f64) -> Scale {
-    match least > 0.0 && largest > wide * least {
-        true => Scale::Log,
-        false => Scale::Linear,
-    }
-}
-
-/// An axis of values between these two, on their [`scale`].
-fn axis(range: (f64, f64), wide: f64, label: impl Into<String>) -> Axis {
-    Axis {
-        scale: scale(range, wide),
-        ..Axis::linear(label)
-    }
-}

@@ -1,16 +1,263 @@
-//! Storage modulus and loss modulus over angular frequency: of a material, and beside it what the loops of a sweep give.
+//! Moduli of a material, and beside them what the loops of a sweep give: over frequency or another axis of the sweep, and in the
+//! diagrams of Cole and Cole and of van Gurp and Palmen.
 
 use num_complex::Complex;
 
-use super::Figure;
-use super::curve::SweepCurves;
-use super::equivalent::{self, Equivalent, Line, LoopModulus};
+use super::curve::{Abscissa, Curve, SweepCurves};
+use super::equivalent::{LoopModulus, largest_differences, line};
+use super::plot::{Plot, Point, Quantity, Trace};
+use super::quantity::{
+    COMPLEX_MODULUS, LOSS_MODULUS, LOSS_TANGENT, MODULUS, PHASE_ANGLE, STORAGE_MODULUS,
+};
 use super::units::Units;
+use super::{Drawn, Figure};
 use crate::report::caption::{self, Caption};
-use crate::report::chart::{Axis, Chart, LineStyle, Marker, Series};
-use crate::report::number::{largest, scientific};
+use crate::report::chart::{Color, LineStyle, Marker};
+use crate::report::number::{range, scientific};
 use crate::report::table::{cells, csv};
-use crate::sweep::record::error_bars::Quantity;
+
+/// A figure of complex moduli.
+pub struct Diagram {
+    name: &'static str,
+    shows: &'static str,
+    /// Over what; `None`: over frequency or the axis of the sweep.
+    x: Option<(Quantity, Number)>,
+    y: Quantity,
+    parts: &'static [Part],
+}
+
+/// A real number that a complex one has.
+type Number = fn(Complex<f64>) -> f64;
+
+/// One of the numbers that stand in a diagram.
+struct Part {
+    /// What it is called beside another.
+    label: &'static str,
+    number: Number,
+    /// Which of both errors is its own.
+    error: Option<usize>,
+    style: LineStyle,
+    marker: Marker,
+}
+
+const STORAGE: Part = Part {
+    label: "E′",
+    number: |modulus| modulus.re,
+    error: Some(0),
+    style: LineStyle::Solid,
+    marker: Marker::Disc,
+};
+const LOSS: Part = Part {
+    label: "E″",
+    number: |modulus| modulus.im,
+    error: Some(1),
+    style: LineStyle::Dashed,
+    marker: Marker::Square,
+};
+const fn alone(number: Number) -> Part {
+    Part {
+        label: "",
+        number,
+        error: None,
+        ..STORAGE
+    }
+}
+
+/// Each relaxation is an arc in the second (K. S. Cole and R. H. Cole, J. Chem. Phys. 9 (1941) 341, for permittivities). The third is
+/// free of the frequency, so that errors of a time scale do not show and others do (M. van Gurp and J. Palmen, Rheol. Bull. 67
+/// (1998) 5). From a ratio the contact radius of the indentation formula drops out.
+static DIAGRAMS: [Diagram; 4] = [
+    Diagram {
+        name: "moduli",
+        shows: "Storage modulus E′ and loss modulus E″",
+        x: None,
+        y: MODULUS,
+        parts: &[STORAGE, LOSS],
+    },
+    Diagram {
+        name: "loss-tangent",
+        shows: "Loss tangent E″/E′",
+        x: None,
+        y: LOSS_TANGENT,
+        parts: &[alone(|modulus| modulus.im / modulus.re)],
+    },
+    Diagram {
+        name: "cole-cole",
+        shows: "Loss modulus E″ over storage modulus E′ (Cole–Cole diagram)",
+        x: Some((STORAGE_MODULUS, |modulus| modulus.re)),
+        y: LOSS_MODULUS,
+        parts: &[alone(|modulus| modulus.im)],
+    },
+    Diagram {
+        name: "van-gurp-palmen",
+        shows: "Phase angle φ over magnitude of the complex modulus |E*| (van Gurp–Palmen diagram)",
+        x: Some((COMPLEX_MODULUS, |modulus| modulus.norm())),
+        y: PHASE_ANGLE,
+        parts: &[alone(|modulus| modulus.arg())],
+    },
+];
+
+/// Curves in one figure, each with a line and symbols; more cannot be told apart.
+const CURVES: usize = 4;
+const NONE: &str = "no figures of the moduli: fewer than two loops have equivalent moduli";
+
+/// The diagrams of a sweep: of its curve of the largest loss, or of every material or indenter of a list.
+pub fn of_sweep(sweep: &SweepCurves<'_>) -> Vec<Drawn> {
+    let curves = with_loops(sweep);
+    match curves.is_empty() {
+        true => vec![Err(NONE)],
+        false => {
+            let figures = DIAGRAMS
+                .iter()
+                .map(|diagram| Ok(diagram.of_sweep(sweep, &curves)));
+            figures.collect()
+        }
+    }
+}
+
+/// The moduli over an axis of a sweep.
+pub fn over_axis(sweep: &SweepCurves<'_>) -> Option<Figure> {
+    let curves = with_loops(sweep);
+    (!curves.is_empty()).then(|| DIAGRAMS[0].of_sweep(sweep, &curves))
+}
+
+/// A curve, and its loops that have moduli: two or more.
+type WithLoops<'b, 'a> = (&'b Curve<'a>, Vec<LoopModulus<'a>>);
+
+fn with_loops<'b, 'a>(sweep: &'b SweepCurves<'a>) -> Vec<WithLoops<'b, 'a>> {
+    let curves = match (sweep.over, sweep.is_of_one_curve()) {
+        (Abscissa::Frequency, true) => super::curve::largest(&sweep.curves).into_iter().collect(),
+        _ => sweep.shown(CURVES),
+    };
+    let loops = |curve: &'b Curve<'a>| {
+        let records = curve.records.iter();
+        let loops = records.filter_map(|record| LoopModulus::of(sweep, record));
+        (curve, loops.collect::<Vec<_>>())
+    };
+    let all = curves.into_iter().map(loops);
+    all.filter(|(_, loops)| loops.len() > 1).collect()
+}
+
+impl Diagram {
+    fn of_sweep(&self, sweep: &SweepCurves<'_>, curves: &[WithLoops<'_, '_>]) -> Figure {
+        let places = curves.iter().flat_map(|(_, loops)| loops);
+        let (first, last) = range(places.map(|at| at.record.angular_frequency_rad_per_s));
+        // A diagram without frequencies shows the material beyond those of the loops.
+        let beyond = if self.x.is_some() { 1e2 } else { 1.0 };
+        let place = |x: f64, modulus: Complex<f64>| match &self.x {
+            Some((_, number)) => number(modulus),
+            None => x,
+        };
+        let mut traces = Vec::new();
+        for (step, (curve, loops)) in curves.iter().enumerate() {
+            let own: Vec<(f64, Complex<f64>)> = match sweep.over {
+                Abscissa::Frequency => {
+                    let material = &curve.condition.contact.material;
+                    line(material, first / beyond, last * beyond)
+                }
+                Abscissa::Axis(_) => {
+                    let own = loops.iter();
+                    own.map(|at| (sweep.place(at.record), at.own_pa)).collect()
+                }
+            };
+            for (k, part) in self.parts.iter().enumerate() {
+                let look = Look {
+                    // Colours tell curves apart, and where there is one curve the numbers.
+                    color: if curves.len() > 1 { step } else { k },
+                    is_only: self.parts.len() == 1,
+                    curve: curve.label.as_deref().filter(|_| curves.len() > 1),
+                };
+                let drawn = own
+                    .iter()
+                    .map(|(x, modulus)| Point::new(place(*x, *modulus), (part.number)(*modulus)));
+                traces.push(look.line(part, drawn));
+                let symbols = loops.iter().map(|at| {
+                    let x = place(sweep.place(at.record), at.modulus_pa);
+                    let error = part.error.and_then(|error| at.errors_pa()[error]);
+                    Point::new(x, (part.number)(at.modulus_pa)).error(error)
+                });
+                traces.push(look.symbols(part, symbols));
+            }
+        }
+        let x = match &self.x {
+            Some((quantity, _)) => quantity.clone(),
+            None => sweep.x.clone(),
+        };
+        let title = curves.first().and_then(|(curve, _)| curve.label.clone());
+        let plot = Plot::new(x, self.y.clone())
+            .title(title.filter(|_| curves.len() == 1))
+            .traces(traces);
+        Figure::of(
+            self.name,
+            &[plot],
+            self.caption(sweep, curves),
+            &sweep.units,
+        )
+    }
+
+    /// How the symbols come about, and how far they are off.
+    fn caption(&self, sweep: &SweepCurves<'_>, curves: &[WithLoops<'_, '_>]) -> Caption {
+        let loops = || curves.iter().flat_map(|(_, loops)| loops);
+        let [storage, loss] = largest_differences(loops);
+        let shows = match self.x {
+            Some(_) => self.shows.to_owned(),
+            None => format!("{} over {}", self.shows, sweep.x.words),
+        };
+        let only = curves.first().filter(|_| curves.len() == 1);
+        let bars = self.parts.iter().any(|part| part.error.is_some());
+        Caption::new(shows)
+            .say_all(only.and_then(|(curve, _)| curve.sentence.clone()))
+            .say(
+                "Lines: the material's longitudinal modulus. Symbols: what indentation reads from the hysteresis loops, \
+                 E′ = (1 − ν²)W₁cosφ/(2aδ₁) and E″ with sinφ, W₁ and δ₁ being the first harmonics of load and approach, φ the \
+                 phase between them and a the mean contact radius. Symbols that would crowd over the lines are left out; the data have \
+                 all.",
+            )
+            .say(format!(
+                "They differ from the material's by at most {storage} % in E′ and {loss} % in E″."
+            ))
+            .say_all(caption::error_bars(sweep.plan, sweep.outcome).filter(|_| bars))
+    }
+}
+
+/// How one curve of a diagram is drawn.
+struct Look<'a> {
+    color: usize,
+    is_only: bool,
+    /// What it is called beside others.
+    curve: Option<&'a str>,
+}
+
+impl Look<'_> {
+    /// What stands in the legend: what it is, and of which curve.
+    fn label(&self, part: &Part, what: &str) -> String {
+        let what = match (self.is_only, self.curve) {
+            (true, _) => what.to_owned(),
+            (false, _) => format!("{} {what}", part.label),
+        };
+        match self.curve {
+            Some(curve) => format!("{curve}, {what}"),
+            None => what,
+        }
+    }
+
+    fn line(&self, part: &Part, points: impl Iterator<Item = Point>) -> Trace {
+        Trace::line(points)
+            .style(part.style)
+            .color(self.color)
+            .label(self.label(part, "of the material"))
+    }
+
+    fn symbols(&self, part: &Part, points: impl Iterator<Item = Point>) -> Trace {
+        // A lone number has the second colour where the line has the first.
+        let color = self.color + usize::from(self.is_only && self.curve.is_none());
+        Trace::symbols(points)
+            .spaced()
+            .marker(part.marker)
+            .color(Color::Palette(color))
+            .label(self.label(part, "from the loops"))
+    }
+}
 
 /// One frequency of a material: rad/s, then Pa, then 1/Pa.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -22,16 +269,36 @@ pub struct ModulusPoint {
     pub loss_compliance_per_pa: f64,
 }
 
+impl ModulusPoint {
+    fn loss_tangent(&self) -> f64 {
+        self.loss_modulus_pa / self.storage_modulus_pa
+    }
+}
+
 /// The figure of a material. `symbol` is E for longitudinal and G for shear moduli.
 pub fn figure(points: &[ModulusPoint], symbol: char) -> Figure {
-    let line: Line = points
-        .iter()
-        .map(|p| {
-            let modulus = Complex::new(p.storage_modulus_pa, p.loss_modulus_pa);
-            (p.angular_frequency_rad_per_s, modulus)
-        })
-        .collect();
-    let (chart, _) = of_material(&line, symbol, &Units::default());
+    let units = Units::default();
+    let trace = |number: fn(&ModulusPoint) -> f64| {
+        let points = points.iter();
+        Trace::line(points.map(|p| Point::new(p.angular_frequency_rad_per_s, number(p))))
+    };
+    let traces = [
+        trace(|p| p.storage_modulus_pa).label(format!("storage modulus {symbol}′")),
+        trace(|p| p.loss_modulus_pa)
+            .label(format!("loss modulus {symbol}″"))
+            .style(LineStyle::Dashed)
+            .color(1),
+    ];
+    let plot = Plot::new(Quantity::frequency(&units), MODULUS).traces(traces);
+    let caption = Caption::new(format!(
+        "Storage modulus {symbol}′ and loss modulus {symbol}″ over angular frequency ω"
+    ))
+    .say_all(largest_tangent(points));
+    Figure::of("moduli", &[plot], caption, &units).with_data(table(points))
+}
+
+/// The points with what follows from them.
+fn table(points: &[ModulusPoint]) -> Vec<u8> {
     let columns = [
         "angular_frequency_rad_per_s",
         "storage_modulus_pa",
@@ -50,21 +317,7 @@ pub fn figure(points: &[ModulusPoint], symbol: char) -> Figure {
             p.loss_compliance_per_pa,
         ]
     });
-    Figure {
-        name: "moduli",
-        picture: chart.into(),
-        caption: Caption::new(format!(
-            "Storage modulus {symbol}′ and loss modulus {symbol}″ over angular frequency ω"
-        ))
-        .say_all(largest_tangent(points)),
-        data: csv(&columns, rows),
-    }
-}
-
-impl ModulusPoint {
-    fn loss_tangent(&self) -> f64 {
-        self.loss_modulus_pa / self.storage_modulus_pa
-    }
+    csv(&columns, rows)
 }
 
 /// Where the material dissipates most of what it stores.
@@ -76,66 +329,4 @@ fn largest_tangent(points: &[ModulusPoint]) -> Option<String> {
         let tangent = scientific(largest.loss_tangent(), 4);
         format!("Largest loss tangent of the points drawn: {tangent} at {at}.")
     })
-}
-
-/// The figure of a sweep: the equivalent moduli of the loops as symbols, the material's own as lines.
-pub fn with_loops(equivalent: &Equivalent<'_>, sweep: &SweepCurves<'_>) -> Figure {
-    let units = &sweep.units;
-    let (chart, factor) = of_material(&equivalent.own, 'E', units);
-    let to_omega = units.frequency().0;
-    let symbols = |quantity: Quantity, value: fn(&LoopModulus<'_>) -> f64| {
-        let points = equivalent.loops.iter().map(|at| {
-            let scaled = factor * value(at);
-            (scaled > 0.0).then_some((to_omega * at.omega(), scaled))
-        });
-        let errors = equivalent.loops.iter();
-        let errors = errors.map(|at| Some(factor * at.error_pa(quantity)?));
-        equivalent::symbols(points).error_bars(errors)
-    };
-    let chart = chart
-        .maybe_title(equivalent.title.clone())
-        .series(symbols(Quantity::StorageModulus, |at| at.storage_pa).label("E′ from the loop"))
-        .series(
-            symbols(Quantity::LossModulus, |at| at.loss_pa)
-                .label("E″ from the loop")
-                .marker(Marker::Square)
-                .color(1),
-        );
-    let shows = format!(
-        "Storage modulus E′ and loss modulus E″ over {}",
-        units.frequency_words()
-    );
-    Figure {
-        name: "moduli",
-        picture: chart.into(),
-        caption: equivalent
-            .caption(&shows)
-            .say_all(caption::error_bars(sweep.plan, sweep.outcome)),
-        data: equivalent::table(sweep),
-    }
-}
-
-/// The lines of a material, and the factor from Pa to the unit of the axis.
-fn of_material(own: &Line, symbol: char, units: &Units) -> (Chart, f64) {
-    let (factor, unit) = units.modulus(largest(own.iter().map(|(_, modulus)| modulus.re)));
-    let to_omega = units.frequency().0;
-    // A modulus of exactly zero has no place on a log axis.
-    let line = |part: fn(&Complex<f64>) -> f64| {
-        Series::line(own.iter().map(|(omega, modulus)| {
-            let value = factor * part(modulus);
-            (value > 0.0).then_some((to_omega * omega, value))
-        }))
-    };
-    let chart = Chart::new(
-        Axis::log(units.frequency_title()),
-        Axis::log(format!("modulus / {unit}")),
-    )
-    .series(line(|m| m.re).label(format!("storage modulus {symbol}′")))
-    .series(
-        line(|m| m.im)
-            .label(format!("loss modulus {symbol}″"))
-            .style(LineStyle::Dashed)
-            .color(1),
-    );
-    (chart, factor)
 }

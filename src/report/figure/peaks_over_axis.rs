@@ -2,104 +2,60 @@
 //! of the sweep has none.
 
 use super::curve::SweepCurves;
-use super::moduli_error::WIDE;
-use super::{Drawn, Figure, Picture, axis};
+use super::plot::{Plot, Point, Quantity, Spread, Trace};
+use super::quantity::ENERGY_LOSS;
+use super::{Drawn, Figure};
 use crate::report::caption::Caption;
-use crate::report::chart::{Axis, Chart, Marker, Series};
-use crate::report::number::{largest, range};
-use crate::report::table::cells;
+use crate::report::chart::Marker;
 use crate::sweep::plan::Axes;
 use crate::sweep::search::peak::Peak;
-use crate::sweep::search::run::Outcome;
-
-/// Losses that vary by more than this are drawn on a logarithmic axis.
-const WIDE_LOSSES: f64 = 20.0;
 
 /// The figure.
 pub fn figure(sweep: &SweepCurves<'_>, over: &Axes) -> Drawn {
-    let (outcome, units) = (sweep.outcome, &sweep.units);
-    let highest = over
-        .conditions
-        .iter()
-        .filter_map(|condition| Some((condition.number()?, outcome.highest_peak(condition))));
+    let outcome = sweep.outcome;
+    let highest = over.conditions.iter();
+    let highest = highest.filter_map(|c| Some((c.number()?, outcome.highest_peak(c))));
     let highest: Vec<(f64, Option<&Peak>)> = highest.collect();
-    let found = || highest.iter().filter_map(|(_, peak)| *peak);
-    if found().count() < 2 {
+    let found = highest.iter().filter(|(_, peak)| peak.is_some()).count();
+    if found < 2 {
         return Err("no figure of the peaks: fewer than two curves have a peak");
     }
-    let unit = &units.varied(&over.varied(), largest(highest.iter().map(|at| at.0.abs())));
-    let x_axis = |label: String| axis(range(highest.iter().map(|at| at.0)), WIDE, label);
-    let (factor, energy) = units.energy(largest(found().map(|peak| peak.energy_loss_j)));
-    let to_omega = units.frequency().0;
-    // A number of each peak, and its error.
-    let series = |number: &dyn Fn(&Peak) -> (f64, Option<f64>)| {
-        let points = highest
-            .iter()
-            .map(|(at, peak)| Some((unit.of(*at), number((*peak)?).0)));
-        let errors = highest.iter().map(|(_, peak)| number((*peak)?).1);
-        Series::line(points).marker(Marker::Disc).error_bars(errors)
+    let plot = |y: Quantity, point: &dyn Fn(f64, &Peak) -> Point| {
+        let points = highest.iter().map(|(x, peak)| match peak {
+            Some(peak) => point(*x, peak),
+            None => Point::new(*x, None),
+        });
+        let x = Quantity::varied(&over.varied(), sweep.plan.base.drive.control());
+        Plot::new(x, y.spread(Spread::OfValues))
+            .traces([Trace::line(points).marker(Marker::Disc).smooth([])])
     };
-    let loss_axis = axis(
-        range(found().map(|peak| factor * peak.energy_loss_j)),
-        WIDE_LOSSES,
-        format!("largest loss per cycle / {energy}"),
-    );
-    let loss = Chart::new(x_axis(String::new()), loss_axis)
-        .series(series(&|peak| {
-            let error = peak.energy_loss_error_j.map(|error| factor * error);
-            (factor * peak.energy_loss_j, error)
-        }))
-        .size(800, 360);
-    let title = unit.title(&over.varied(), sweep.plan.base.drive.control());
-    let frequency = Chart::new(x_axis(title), Axis::log(units.frequency_title()))
-        .series(series(&|peak| {
-            let error = to_omega * peak.angular_frequency_uncertainty_rad_per_s;
-            (to_omega * peak.angular_frequency_rad_per_s, Some(error))
-        }))
-        .size(800, 380);
-    Ok(Figure {
-        name: "peaks",
-        picture: Picture(vec![loss, frequency]),
-        caption: caption(outcome, over, highest.len() - found().count()),
-        data: data(sweep, over),
-    })
+    let loss = plot(ENERGY_LOSS.called("largest loss per cycle"), &|x, peak| {
+        Point::new(x, peak.energy_loss_j).error(peak.energy_loss_error_j)
+    });
+    let frequency = plot(Quantity::frequency(&sweep.units), &|x, peak| {
+        Point::new(x, peak.angular_frequency_rad_per_s)
+            .error(peak.angular_frequency_uncertainty_rad_per_s)
+    });
+    let caption = caption(sweep, over, highest.len() - found);
+    Ok(Figure::of(
+        "peaks",
+        &[loss, frequency],
+        caption,
+        &sweep.units,
+    ))
 }
 
-fn caption(outcome: &Outcome, over: &Axes, without: usize) -> Caption {
-    let words = over.varied().words();
-    let caption = Caption::new(format!(
-        "Largest energy loss per cycle over frequency, against the {words}: its value above, its frequency below"
-    ));
+fn caption(sweep: &SweepCurves<'_>, over: &Axes, without: usize) -> Caption {
+    let (words, of) = (over.varied().words(), over.conditions.len());
     let absent = (without > 0).then(|| {
         format!(
-            "{without} of {} curves are highest at an end of the sweep and have no point here.",
-            over.conditions.len()
+            "{without} of {of} curves are highest at an end of the sweep and have no point here."
         )
     });
-    let lower = outcome.peaks.len() + without > over.conditions.len();
-    let lower = lower.then(|| "The data hold lower peaks too.".to_owned());
-    caption.say_all(absent.into_iter().chain(lower))
-}
-
-fn data(sweep: &SweepCurves<'_>, over: &Axes) -> Vec<u8> {
-    let numbers = [
-        "angular_frequency_rad_per_s",
-        "angular_frequency_uncertainty_rad_per_s",
-        "energy_loss_j",
-        "energy_loss_error_j",
-        "energy_loss_material_error_j",
-    ];
-    let peaks = &sweep.outcome.peaks;
-    let of_condition = |condition| peaks.iter().filter(move |peak| peak.is_of(condition));
-    let rows = over.conditions.iter().flat_map(of_condition).map(|peak| {
-        let numbers = cells![
-            peak.angular_frequency_rad_per_s,
-            peak.angular_frequency_uncertainty_rad_per_s,
-            peak.energy_loss_j,
-            peak.energy_loss_error_j,
-            peak.energy_loss_material_error_j,
-        ];
-        (sweep.place_of_peak(peak), numbers)
-    });
-    sweep.table(&[], &numbers, rows)
+    let lower = sweep.outcome.peaks.len() + without > of;
+    let lower = lower.then(|| "Lower peaks are in summary.json.".to_owned());
+    Caption::new(format!(
+        "Largest energy loss per cycle over frequency, against the {words}: its value above, its frequency below"
+    ))
+    .say_all(absent.into_iter().chain(lower))
 }

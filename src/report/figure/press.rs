@@ -59,7 +59,7 @@ impl Press<'_> {
     /// [`ReportError`] naming the figure.
     pub fn figures(&self, figures: &[Figure], setting: &Setting) -> Result<(), ReportError> {
         figures.par_iter().try_for_each(|figure| {
-            let name = figure.name;
+            let name = &*figure.name;
             if !figure.data.is_empty() {
                 (self.write)(&format!("{name}.csv"), &figure.data)?;
             }
@@ -75,7 +75,7 @@ impl Press<'_> {
     pub fn picture(
         &self,
         file: &str,
-        figure: &'static str,
+        figure: &str,
         picture: &Picture,
         caption: &str,
     ) -> Result<(), ReportError> {
@@ -100,12 +100,12 @@ impl Press<'_> {
     pub fn picture_in(
         &self,
         forms: &[(&str, Form)],
-        (file, figure): (&str, &'static str),
+        (file, figure): (&str, &str),
         picture: &Picture,
         caption: &str,
     ) -> Result<(), ReportError> {
         let failed = |source| ReportError::Chart {
-            name: figure,
+            name: figure.to_owned(),
             source,
         };
         let drawing = picture.as_asked(self.plan).map_err(failed)?;

@@ -1,7 +1,8 @@
 //! The contact pressure over the surface as a heat map, blank outside the contact.
 
 use super::press::Press;
-use super::units::Units;
+use super::quantity::PRESSURE;
+use super::units::{Measure, Units};
 use crate::contact::surface::{CellSurface, Surface};
 use crate::quantity::Dimension;
 use crate::report::ReportError;
@@ -83,24 +84,24 @@ fn chart(time_s: f64, cells: &CellSurface, peak_pa: f64, units: &Units) -> Chart
         0.5 * grid.cells_x() as f64 * grid.spacing_x_m(),
         0.5 * grid.cells_y() as f64 * grid.spacing_y_m(),
     );
-    let (to_length, length) = units.length(half.0.max(half.1));
-    let (to_pressure, pressure) = units.pressure(peak_pa);
-    // From a second on, so that times stay in seconds.
-    let (to_time, time_unit) = units.time(1.0);
-    let value = |p: &f64| (*p > 0.0).then_some(to_pressure * p);
+    let length = units.shown(Measure::Length, half.0.max(half.1));
+    let pressure = units.shown(PRESSURE.measure, peak_pa);
+    let value = |p: &f64| (*p > 0.0).then(|| pressure.of(*p));
     let map = HeatMap {
         columns: grid.cells_x(),
         rows: grid.cells_y(),
         values: cells.pressure_pa.iter().map(value).collect(),
-        value_label: format!("pressure p / {pressure}"),
-        value_range: Some((0.0, to_pressure * peak_pa)),
+        value_label: pressure.title(&PRESSURE.words),
+        value_range: Some((0.0, pressure.of(peak_pa))),
         ..HeatMap::default()
     };
-    let axis = |name: char, half: f64| {
-        Axis::linear(format!("{name} / {length}")).range(-to_length * half, to_length * half)
+    let axis = |name: &str, half: f64| {
+        Axis::linear(length.title(name)).range(length.of(-half), length.of(half))
     };
-    let time = scientific(to_time * time_s, 4);
-    Chart::new(axis('x', half.0), axis('y', half.1))
-        .title(format!("t = {time} {time_unit}"))
+    // From a second on, so that times stay in seconds.
+    let time = units.shown(Measure::Time, 1.0);
+    let at = scientific(time.of(time_s), 4);
+    Chart::new(axis("x", half.0), axis("y", half.1))
+        .title(format!("t = {at} {}", time.unit))
         .map(map)
 }

@@ -1,31 +1,27 @@
 //! Relaxation modulus against time, as figure 1 of S. Spinu, Advances in Tribology 2018, 9432894, shows it for PMMA.
 
 use super::Figure;
-use super::units::Units;
+use super::plot::{Plot, Quantity, Trace};
+use super::quantity::TIME;
+use super::units::{Measure, Units};
 use crate::quantity::Dimension;
 use crate::report::caption::Caption;
-use crate::report::chart::{Axis, Chart, Series};
-use crate::report::number::{largest, plain};
+use crate::report::number::plain;
 use crate::report::table::{cells, csv};
 
 /// The figure, from (time in s, relaxation modulus in Pa, creep compliance in 1/Pa).
 pub fn figure(points: &[(f64, f64, f64)], symbol: char) -> Figure {
-    let (factor, unit) = Units::default().modulus(largest(points.iter().map(|p| p.1)));
-    let chart = Chart::new(
-        Axis::linear("time t / s"),
-        Axis::linear(format!("relaxation modulus {symbol}(t) / {unit}")),
-    )
-    .series(Series::line(points.iter().map(|p| (p.0, factor * p.1))));
+    let modulus = Quantity::new("relaxation_modulus_pa", "", Measure::Modulus)
+        .called(format!("relaxation modulus {symbol}(t)"));
+    let line = Trace::line(points.iter().map(|point| (point.0, point.1)));
+    let plot = Plot::new(TIME, modulus).traces([line]);
     let columns = ["time_s", "relaxation_modulus_pa", "creep_compliance_per_pa"];
     let rows = points
         .iter()
         .map(|(time, modulus, compliance)| cells![*time, *modulus, *compliance]);
-    Figure {
-        name: "relaxation",
-        picture: chart.into(),
-        caption: caption(points, symbol),
-        data: csv(&columns, rows),
-    }
+    let data = csv(&columns, rows);
+    let units = Units::default();
+    Figure::of("relaxation", &[plot], caption(points, symbol), &units).with_data(data)
 }
 
 fn caption(points: &[(f64, f64, f64)], symbol: char) -> Caption {

@@ -1,7 +1,6 @@
 //! What the axes of figures are in: SI units with a fitting prefix, or units of the elastic contact. An axis is titled with a
 //! quantity over its unit, so that both are told apart there: `load W / N` and `load W / W₀`.
 
-use crate::drive::Control;
 use crate::figures::elastic::ElasticScale;
 use crate::quantity::{Dimension, FrequencyUnit, ZERO_CELSIUS_K, format_human};
 use crate::report::ReportError;
@@ -26,40 +25,109 @@ struct Scale {
     under: String,
 }
 
-/// How what a second axis varies is drawn.
-#[derive(Debug, Clone, PartialEq)]
-pub struct VariedUnit {
-    factor: f64,
-    offset: f64,
-    unit: String,
+/// What numbers measure, and so in which units they are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Measure {
+    Energy,
+    Load,
+    /// Approaches and displacements.
+    Approach,
+    /// Lengths along the surface.
+    Length,
+    Pressure,
+    Modulus,
+    /// Per Pa; per GPa where the moduli are in GPa.
+    Compliance,
+    EnergyPerArea,
+    AngularFrequency,
+    Time,
+    /// Never normalised: temperatures in °C, angles in degrees, others in SI units with a prefix.
+    Of(Dimension),
+    /// A ratio that is shown in per cent.
+    Percent,
+    /// A ratio or a count.
+    Number,
 }
 
-impl VariedUnit {
+impl Measure {
+    /// The SI unit, and that of normalised axes with its size (SI); `None` where these are the same.
+    fn units(
+        self,
+    ) -> (
+        &'static str,
+        Option<(fn(&ElasticScale) -> f64, &'static str)>,
+    ) {
+        match self {
+            Self::Energy => ("J", Some((ElasticScale::energy_j, "W₀δ₀"))),
+            Self::Load => ("N", Some((|scale| scale.load_n, "W₀"))),
+            Self::Approach => ("m", Some((|scale| scale.approach_m, "δ₀"))),
+            Self::Length => ("m", Some((|scale| scale.contact_radius_m, "a₀"))),
+            Self::Pressure => ("Pa", Some((ElasticScale::pressure_pa, "p₀"))),
+            Self::Modulus => ("Pa", Some((|scale| scale.modulus_pa, "E₀"))),
+            Self::EnergyPerArea => {
+                let density =
+                    |scale: &ElasticScale| scale.energy_j() / scale.contact_radius_m.powi(2);
+                ("J·m⁻²", Some((density, "W₀δ₀a₀⁻²")))
+            }
+            Self::Compliance => ("Pa⁻¹", None),
+            Self::AngularFrequency => ("rad·s⁻¹", None),
+            Self::Time => ("s", None),
+            Self::Of(dimension) => (dimension.si_unit(), None),
+            Self::Percent | Self::Number => ("", None),
+        }
+    }
+
+    /// The unit as columns of tables have it at their end.
+    pub fn suffix(self) -> String {
+        match self {
+            Self::EnergyPerArea => "j_per_m2".to_owned(),
+            Self::AngularFrequency => "rad_per_s".to_owned(),
+            Self::Compliance => "per_pa".to_owned(),
+            _ => self.units().0.to_lowercase().replace('/', "_per_"),
+        }
+    }
+}
+
+/// How values in SI units are shown: what they are multiplied by, what is added, and the unit that they are in then.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shown {
+    factor: f64,
+    offset: f64,
+    pub unit: String,
+}
+
+impl Shown {
+    fn times(factor: f64, unit: impl Into<String>) -> Self {
+        Self {
+            factor,
+            offset: 0.0,
+            unit: unit.into(),
+        }
+    }
+
+    /// In the SI unit with the prefix that fits values up to `largest`.
+    fn in_si(largest: f64, si: &str) -> Self {
+        let (factor, prefix) = prefix(largest);
+        Self::times(factor, format!("{prefix}{si}"))
+    }
+
     /// A value (SI units) in this unit.
     pub fn of(&self, value: f64) -> f64 {
         self.factor * value + self.offset
     }
 
-    /// The title of an axis: `load amplitude / N`, `temperature of the material / °C`.
-    pub fn title(&self, varied: &Varied, control: Control) -> String {
-        let words = match varied.has_own_column() {
-            true => varied.words(),
-            false => format!("{} {}", control.name(), varied.name()),
-        };
+    /// A difference of two values in this unit.
+    pub fn of_difference(&self, difference: f64) -> f64 {
+        self.factor * difference
+    }
+
+    /// The title of an axis of a quantity: `load W / N`.
+    pub fn title(&self, quantity: &str) -> String {
         match self.unit.as_str() {
-            "" => words,
-            unit => format!("{words} / {unit}"),
+            "" => quantity.to_owned(),
+            unit => format!("{quantity} / {unit}"),
         }
     }
-}
-
-/// What a number is multiplied by to be drawn, and the unit it is then in.
-pub type Unit = (f64, String);
-
-/// The SI unit with the prefix that fits values up to `largest`.
-fn in_si(largest: f64, si: &str) -> Unit {
-    let (factor, prefix) = prefix(largest);
-    (factor, format!("{prefix}{si}"))
 }
 
 impl Units {
@@ -109,69 +177,57 @@ impl Units {
         })
     }
 
-    /// The unit of values up to `largest` (SI).
-    fn unit(&self, largest: f64, si: &str, normal: (fn(&ElasticScale) -> f64, &str)) -> Unit {
-        match &self.scale {
-            Some(scale) => (normal.0(&scale.elastic).recip(), normal.1.to_owned()),
-            None => in_si(largest, si),
+    /// How values up to `largest` (SI) in size are shown.
+    pub fn shown(&self, measure: Measure, largest: f64) -> Shown {
+        let (si, normal) = measure.units();
+        match (measure, &self.scale, normal) {
+            (_, Some(scale), Some((size, unit))) => {
+                Shown::times(size(&scale.elastic).recip(), unit)
+            }
+            (Measure::AngularFrequency, ..) => match (self.time_s(), self.frequency_unit) {
+                (Some(time_s), _) => Shown::times(time_s, "τ⁻¹"),
+                (None, FrequencyUnit::RadPerS) => Shown::times(1.0, si),
+                (None, unit) => Shown::times(unit.of(1.0), unit.name()),
+            },
+            // Long times stay in seconds.
+            (Measure::Time, ..) => match self.time_s() {
+                Some(time_s) => Shown::times(time_s.recip(), "τ"),
+                None if largest < 1.0 => Shown::in_si(largest, si),
+                None => Shown::times(1.0, si),
+            },
+            (Measure::Of(Dimension::Temperature), ..) => Shown {
+                offset: -ZERO_CELSIUS_K,
+                ..Shown::times(1.0, "°C")
+            },
+            (Measure::Of(Dimension::Angle), ..) => Shown::times(180.0 / std::f64::consts::PI, "°"),
+            (Measure::Compliance, ..) => {
+                let (factor, prefix) = prefix(largest.recip());
+                Shown::times(factor.recip(), format!("{prefix}{si}"))
+            }
+            (Measure::Percent, ..) => Shown::times(100.0, "%"),
+            (Measure::Number, ..) => Shown::times(1.0, ""),
+            _ => Shown::in_si(largest, si),
         }
     }
 
-    /// Energies (J).
-    pub fn energy(&self, largest: f64) -> Unit {
-        self.unit(largest, "J", (ElasticScale::energy_j, "W₀δ₀"))
+    /// A value (SI units) with its unit, to be read: `5 N`, `25 °C`.
+    pub fn value(&self, measure: Measure, value: f64, significant: usize) -> String {
+        let shown = self.shown(measure, value.abs());
+        let blank = if shown.unit == "°" { "" } else { " " };
+        let number = scientific(shown.of(value), significant);
+        format!("{number}{blank}{}", shown.unit)
+            .trim_end()
+            .to_owned()
     }
 
-    /// Loads (N).
-    pub fn load(&self, largest: f64) -> Unit {
-        self.unit(largest, "N", (|scale| scale.load_n, "W₀"))
-    }
-
-    /// Approaches and displacements (m).
-    pub fn approach(&self, largest: f64) -> Unit {
-        self.unit(largest, "m", (|scale| scale.approach_m, "δ₀"))
-    }
-
-    /// Lengths along the surface (m).
-    pub fn length(&self, largest: f64) -> Unit {
-        self.unit(largest, "m", (|scale| scale.contact_radius_m, "a₀"))
-    }
-
-    /// Pressures (Pa).
-    pub fn pressure(&self, largest: f64) -> Unit {
-        self.unit(largest, "Pa", (ElasticScale::pressure_pa, "p₀"))
-    }
-
-    /// Moduli (Pa).
-    pub fn modulus(&self, largest: f64) -> Unit {
-        self.unit(largest, "Pa", (|scale| scale.modulus_pa, "E₀"))
-    }
-
-    /// Energies per area (J/m²).
-    pub fn density(&self, largest: f64) -> Unit {
-        let density = |scale: &ElasticScale| scale.energy_j() / scale.contact_radius_m.powi(2);
-        self.unit(largest, "J·m⁻²", (density, "W₀δ₀a₀⁻²"))
-    }
-
-    /// What a second axis varies, up to `largest` (SI) in size.
-    pub fn varied(&self, varied: &Varied, largest: f64) -> VariedUnit {
+    /// What a second axis varies, measured.
+    pub fn measure_of(varied: &Varied) -> Measure {
         let of_drive = !varied.has_own_column();
-        let (factor, unit) = match varied.dimension {
-            Some(Dimension::Force) if of_drive => self.load(largest),
-            Some(Dimension::Length) if of_drive => self.approach(largest),
-            Some(Dimension::Temperature) => (1.0, "°C".to_owned()),
-            Some(Dimension::Angle) => (180.0 / std::f64::consts::PI, "°".to_owned()),
-            Some(dimension) => in_si(largest, dimension.si_unit()),
-            None => (1.0, String::new()),
-        };
-        let offset = match varied.dimension {
-            Some(Dimension::Temperature) => -ZERO_CELSIUS_K,
-            _ => 0.0,
-        };
-        VariedUnit {
-            factor,
-            offset,
-            unit,
+        match varied.dimension {
+            Some(Dimension::Force) if of_drive => Measure::Load,
+            Some(Dimension::Length) if of_drive => Measure::Approach,
+            Some(dimension) => Measure::Of(dimension),
+            None => Measure::Number,
         }
     }
 
@@ -183,25 +239,11 @@ impl Units {
         if varied.dimension == Some(Dimension::Temperature) {
             return number::varied_number(varied, value);
         }
-        let unit = self.varied(varied, value.abs());
-        let number = scientific(unit.of(value), 3);
-        let blank = if unit.unit == "°" { "" } else { " " };
-        format!("{number}{blank}{}", unit.unit)
-            .trim_end()
-            .to_owned()
+        self.value(Self::measure_of(varied), value, 3)
     }
 
     fn time_s(&self) -> Option<f64> {
         self.scale.as_ref()?.elastic.time_s
-    }
-
-    /// Angular frequencies (rad/s). An elastic body has no time to take them in units of.
-    pub fn frequency(&self) -> Unit {
-        match (self.time_s(), self.frequency_unit) {
-            (Some(time_s), _) => (time_s, "τ⁻¹".to_owned()),
-            (None, FrequencyUnit::RadPerS) => (1.0, "rad·s⁻¹".to_owned()),
-            (None, unit) => (unit.of(1.0), unit.name().to_owned()),
-        }
     }
 
     /// The unit in which text and tables have frequencies.
@@ -221,20 +263,6 @@ impl Units {
     pub fn frequency_words(&self) -> String {
         let unit = self.axis_unit();
         format!("{} {}", unit.quantity(), unit.symbol())
-    }
-
-    /// Times (s); long ones stay in seconds.
-    pub fn time(&self, largest: f64) -> Unit {
-        match self.time_s() {
-            Some(time_s) => (time_s.recip(), "τ".to_owned()),
-            None if largest < 1.0 => in_si(largest, "s"),
-            None => (1.0, "s".to_owned()),
-        }
-    }
-
-    /// The title of an axis of frequencies.
-    pub fn frequency_title(&self) -> String {
-        format!("{} / {}", self.frequency_words(), self.frequency().1)
     }
 
     /// An angular frequency (rad/s) as it stands in legends: `ω = 0.12 rad/s`, `f = 0.2 Hz`, `ω = 1.6 τ⁻¹`.
@@ -285,6 +313,7 @@ impl Units {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drive::Control;
     use crate::sweep::plan::AxisValue::Number;
     use crate::sweep::plan::Block;
 
@@ -307,16 +336,20 @@ mod tests {
     #[test]
     fn the_same_number_is_told_in_both_units() {
         let (si, normalised) = (Units::default(), normalised());
-        assert_eq!(si.energy(3e-6), (1e6, "µJ".to_owned()));
-        let (factor, unit) = normalised.energy(3e-6);
-        assert!((factor * 2e-5 - 1.0).abs() < 1e-12 && unit == "W₀δ₀");
+        assert_eq!(si.shown(Measure::Energy, 3e-6), Shown::times(1e6, "µJ"));
+        let energy = normalised.shown(Measure::Energy, 3e-6);
+        assert!((energy.of(2e-5) - 1.0).abs() < 1e-12 && energy.unit == "W₀δ₀");
         assert_eq!(si.frequency_label(0.12), "ω = 0.12 rad/s");
         assert_eq!(normalised.frequency_label(0.12), "ω = 12 τ⁻¹");
         let hz = Units::in_si(FrequencyUnit::Hz);
         let omega = std::f64::consts::TAU * 0.2;
         assert_eq!(hz.frequency_label(omega), "f = 0.2 Hz");
         assert_eq!(hz.at(omega / 1e3), "f = 2 × 10⁻⁴ Hz");
-        assert_eq!(hz.frequency_title(), "frequency f / Hz");
+        let title = |units: &Units| {
+            let unit = units.shown(Measure::AngularFrequency, 1.0);
+            unit.title(&units.frequency_words())
+        };
+        assert_eq!(title(&hz), "frequency f / Hz");
         let [load, approach] = [Control::Load, Control::Approach].map(Varied::amplitude);
         assert_eq!(si.varied_value(&load, Number(5.0)), "5 N");
         assert_eq!(si.varied_value(&load, Number(0.25)), "250 mN");
@@ -329,9 +362,6 @@ mod tests {
             normalised.varied_value(&temperature, Number(298.15)),
             "25 °C"
         );
-        let unit = si.varied(&temperature, 300.0);
-        let title = unit.title(&temperature, Control::Load);
-        assert_eq!(title, "temperature of the material / °C");
         let angle = of(Block::Indenter, "half_angle", Some(Dimension::Angle));
         assert_eq!(
             si.varied_value(&angle, Number(0.5 * std::f64::consts::PI)),
@@ -341,10 +371,10 @@ mod tests {
         let ratio = of(Block::Material, "poisson_ratio", None);
         assert_eq!(si.varied_value(&ratio, Number(0.4)), "0.4");
         assert_eq!(ratio.words(), "Poisson ratio of the material");
-        assert_eq!(si.frequency_title(), "angular frequency ω / rad·s⁻¹");
-        assert_eq!(normalised.frequency_title(), "angular frequency ω / τ⁻¹");
-        assert_eq!(si.time(500.0).1, "s");
-        assert_eq!(si.time(0.5).1, "ms");
+        assert_eq!(title(&si), "angular frequency ω / rad·s⁻¹");
+        assert_eq!(title(&normalised), "angular frequency ω / τ⁻¹");
+        assert_eq!(si.shown(Measure::Time, 500.0).unit, "s");
+        assert_eq!(si.shown(Measure::Time, 0.5).unit, "ms");
         assert_eq!(si.sentence(), None);
         let sentence = normalised.sentence().unwrap();
         for part in ["mean load", "W₀ = 10.00 N", "δ₀ = 2.000 µm", "τ = 100.0 s"] {

@@ -48,7 +48,7 @@ pub(super) fn found_material(block: &str) -> Input<'_> {
 pub(super) fn shown(figures: &[Figure], pictures: &Pictures) -> Markup {
     html! {
         @for figure in figures {
-            @if let Some(picture) = pictures.inline(figure.name) {
+            @if let Some(picture) = pictures.inline(&figure.name) {
                 figure {
                     (picture)
                     figcaption { (figure.caption.text(&Setting::default())) }

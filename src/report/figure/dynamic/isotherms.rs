@@ -1,64 +1,39 @@
 //! The isotherms as they were measured: storage modulus above, loss modulus below.
 
-use super::{
-    LOSS, Part, STORAGE, caption, coloured, frequency, measured_frequency_title, temperatures, unit,
-};
+use super::{LOSS, Part, STORAGE, caption, coloured, temperatures, units};
 use crate::material::dynamic::DynamicPoint;
-use crate::report::chart::{Axis, Chart, LineStyle, Marker};
+use crate::report::chart::{LineStyle, Marker};
 use crate::report::dynamic::DynamicReport;
-use crate::report::dynamic::tables::celsius;
-use crate::report::figure::{Figure, Picture};
-use crate::report::number::{largest, prefix};
-use crate::report::table::{cells, csv};
+use crate::report::figure::Figure;
+use crate::report::figure::plot::{Plot, Quantity, Spread};
+use crate::report::figure::quantity::{LOSS_MODULUS, STORAGE_MODULUS, TEMPERATURE};
 
 /// The figure; `None` where there is one isotherm.
 pub(super) fn figure(report: &DynamicReport<'_>) -> Option<Figure> {
     let scale = temperatures(report)?;
-    let symbol = report.symbol();
+    let (symbol, units) = (report.symbol(), units(report));
     let points: Vec<DynamicPoint> = report.data.points().copied().collect();
-    let panel = |x_label: &str, part: Part| {
-        let (factor, unit) = prefix(largest(points.iter().map(part.of_point)));
-        let series = coloured(report, &points, Marker::Disc, |p| {
-            Some((frequency(report, p), factor * (part.of_point)(p)))
-        });
-        let lines = series
+    let frame = |quantity: Quantity, part: Part| {
+        let symbols = coloured(report, &points, Marker::Disc, |point| part.point(point));
+        let lines = symbols
             .into_iter()
-            .map(|series| series.style(LineStyle::Solid));
-        let y_label = format!("{} / {unit}Pa", part.label(report));
-        Chart::new(Axis::log(x_label), Axis::log(y_label))
-            .all_series(lines)
-            .color_scale(scale.clone())
-            .size(800, 430)
+            .map(|trace| trace.style(LineStyle::Solid));
+        let plot = Plot::new(
+            Quantity::frequency(&units),
+            quantity.spread(Spread::Log).called(part.label(report)),
+        );
+        Plot {
+            color_scale: Some(scale.clone()),
+            ..plot.family(TEMPERATURE).traces(lines).height(430)
+        }
     };
-    let unit = unit(report);
-    let words = format!("{} {}", unit.quantity(), unit.symbol());
-    let panels = vec![
-        panel("", STORAGE),
-        panel(measured_frequency_title(report), LOSS),
-    ];
-    let rows = points.iter().map(|point| {
-        cells![
-            point.temperature_k.map(celsius),
-            point.angular_frequency_rad_per_s,
-            point.storage_modulus_pa,
-            point.loss_modulus_pa,
-        ]
-    });
-    let columns = [
-        "temperature_c",
-        "angular_frequency_rad_per_s",
-        "storage_modulus_pa",
-        "loss_modulus_pa",
-    ];
-    Some(Figure {
-        name: "isotherms",
-        picture: Picture(panels),
-        caption: caption(
-            report,
-            &format!(
-                "Storage modulus {symbol}′ and loss modulus {symbol}″ as measured, over {words}"
-            ),
+    let frames = [frame(STORAGE_MODULUS, STORAGE), frame(LOSS_MODULUS, LOSS)];
+    let caption = caption(
+        report,
+        &format!(
+            "Storage modulus {symbol}′ and loss modulus {symbol}″ as measured, over {}",
+            units.frequency_words()
         ),
-        data: csv(&columns, rows),
-    })
+    );
+    Some(Figure::of("isotherms", &frames, caption, &units))
 }

@@ -11,12 +11,14 @@ mod van_gurp_palmen;
 use num_complex::Complex;
 
 use super::Figure;
+use super::plot::{Point, Quantity, Trace};
+use super::units::Units;
 use crate::material::dynamic::DynamicPoint;
-use crate::quantity::{FrequencyUnit, celsius};
+use crate::quantity;
 use crate::report::caption::Caption;
-use crate::report::chart::{Color, ColorScale, LineStyle, Marker, Series};
+use crate::report::chart::{Color, ColorScale, LineStyle, Marker};
 use crate::report::dynamic::DynamicReport;
-use crate::report::dynamic::tables::celsius as celsius_number;
+use crate::report::dynamic::tables::celsius;
 
 /// Every figure that the data have: shift factors and isotherms take several temperatures.
 pub fn figures(report: &DynamicReport<'_>) -> Vec<Figure> {
@@ -69,51 +71,44 @@ impl Part {
         format!("{} {}{}", self.name, report.symbol(), self.primes)
     }
 
-    /// The fitted series as a curve, its values multiplied by the factor; called what it is beside the symbol.
-    fn curve(&self, report: &DynamicReport<'_>, factor: f64, called: &str) -> Series {
+    /// The fitted series as a curve; called what it is beside the symbol.
+    fn curve(&self, report: &DynamicReport<'_>, called: &str) -> Trace {
         let points = frequencies(report).into_iter().map(|omega| {
-            let value = factor * (self.of_modulus)(report.relaxation().complex_modulus(omega));
-            (value > 0.0).then_some((unit(report).of(omega), value))
+            let modulus = report.relaxation().complex_modulus(omega);
+            (omega, (self.of_modulus)(modulus))
         });
-        Series::line(points).style(self.style).label(format!(
+        Trace::line(points).style(self.style).label(format!(
             "{called} {}{}",
             report.symbol(),
             self.primes
         ))
     }
-}
 
-/// The unit of frequencies on the axes.
-fn unit(report: &DynamicReport<'_>) -> FrequencyUnit {
-    report.source.frequency_unit
-}
-
-/// The frequency of a point in the unit of the axes.
-fn frequency(report: &DynamicReport<'_>, point: &DynamicPoint) -> f64 {
-    unit(report).of(point.angular_frequency_rad_per_s)
-}
-
-/// The axis of frequencies as measured.
-fn measured_frequency_title(report: &DynamicReport<'_>) -> &'static str {
-    match unit(report) {
-        FrequencyUnit::RadPerS => "angular frequency ω / rad·s⁻¹",
-        FrequencyUnit::Hz => "frequency f / Hz",
+    /// A point of this modulus.
+    fn point(&self, point: &DynamicPoint) -> Point {
+        Point::new(point.angular_frequency_rad_per_s, (self.of_point)(point))
     }
 }
 
-/// The axis of frequencies: reduced where isotherms were shifted.
-fn frequency_title(report: &DynamicReport<'_>) -> &'static str {
-    match (&report.made.master, unit(report)) {
-        (Some(_), FrequencyUnit::RadPerS) => "reduced angular frequency a_T ω / rad·s⁻¹",
-        (Some(_), FrequencyUnit::Hz) => "reduced frequency a_T f / Hz",
-        (None, _) => measured_frequency_title(report),
+/// The units of the figures: frequencies as in the data.
+fn units(report: &DynamicReport<'_>) -> Units {
+    Units::in_si(report.source.frequency_unit)
+}
+
+/// The frequencies: reduced where isotherms were shifted.
+fn frequency(report: &DynamicReport<'_>) -> Quantity {
+    let own = Quantity::frequency(&units(report));
+    let unit = report.source.frequency_unit;
+    match report.made.master {
+        Some(_) => own.called(format!("reduced {} a_T {}", unit.quantity(), unit.symbol())),
+        None => own,
     }
 }
 
 /// What the figures say of the data.
 fn caption(report: &DynamicReport<'_>, shows: &str) -> Caption {
     let points = report.data.points().count();
-    let at = report.reference_temperature_k().map(celsius);
+    let at = report.reference_temperature_k().map(quantity::celsius);
     let data = match (&report.made.master, at) {
         (Some(master), Some(at)) => format!(
             "{points} points in {} isotherms, shifted to {at}.",
@@ -131,7 +126,7 @@ fn temperatures(report: &DynamicReport<'_>) -> Option<ColorScale> {
     let known = isotherms.iter().filter_map(|i| i.temperature_k);
     match isotherms.len() {
         1 => None,
-        _ => ColorScale::over("temperature T / °C", known.map(celsius_number)),
+        _ => ColorScale::over("temperature T / °C", known.map(celsius)),
     }
 }
 
@@ -140,8 +135,8 @@ fn coloured(
     report: &DynamicReport<'_>,
     points: &[DynamicPoint],
     marker: Marker,
-    place: impl Fn(&DynamicPoint) -> Option<(f64, f64)>,
-) -> Vec<Series> {
+    place: impl Fn(&DynamicPoint) -> Point,
+) -> Vec<Trace> {
     let scale = temperatures(report);
     let isotherms = report.data.isotherms().iter();
     let of_isotherm = isotherms.map(|isotherm| {
@@ -149,10 +144,13 @@ fn coloured(
         let own = |point: &&DynamicPoint| nearest(report, point) == isotherm.temperature_k;
         let places = points.iter().filter(own).map(&place);
         let color = match (&scale, isotherm.temperature_k) {
-            (Some(scale), Some(temperature_k)) => scale.color(celsius_number(temperature_k)),
+            (Some(scale), Some(temperature_k)) => scale.color(celsius(temperature_k)),
             _ => Color::Palette(0),
         };
-        Series::scatter(places).marker(marker).color(color)
+        Trace::symbols(places)
+            .marker(marker)
+            .color(color)
+            .member(isotherm.temperature_k)
     });
     of_isotherm.collect()
 }
@@ -166,11 +164,12 @@ fn nearest(report: &DynamicReport<'_>, point: &DynamicPoint) -> Option<f64> {
 }
 
 /// An entry of the legend without points: what a symbol stands for where its colours stand for something else.
-fn legend_of_marker(label: String, marker: Marker) -> Series {
-    Series::scatter(Vec::<(f64, f64)>::new())
-        .marker(marker)
-        .color(Color::Rgb(0x40, 0x40, 0x40))
-        .label(label)
+fn legend_of_marker(label: String, marker: Marker) -> Trace {
+    Trace {
+        marker: Some(marker),
+        line: None,
+        ..Trace::guide([]).label(label)
+    }
 }
 
 /// As many frequencies from the lowest to the highest of the data as a smooth curve takes.
@@ -206,7 +205,10 @@ mod tests {
                 let columns = rows.lines().next().unwrap_or_default().split(',').count();
                 assert!(rows.lines().all(|row| row.split(',').count() == columns));
             }
-            figures.iter().map(|figure| figure.name).collect::<Vec<_>>()
+            figures
+                .into_iter()
+                .map(|figure| figure.name)
+                .collect::<Vec<_>>()
         };
         let all = [
             "fit",

@@ -2,10 +2,11 @@
 
 use crate::material::dynamic::replicas::{self, SIMULTANEOUS_DEVIATIONS};
 
-use super::{LOSS, Part, STORAGE, caption, frequencies, frequency, frequency_title, unit};
-use crate::report::chart::{Axis, Chart, Color, Series};
+use super::{LOSS, Part, STORAGE, caption, frequencies, frequency, units};
 use crate::report::dynamic::{Band, DynamicReport};
 use crate::report::figure::Figure;
+use crate::report::figure::plot::{Plot, Point, Trace};
+use crate::report::figure::quantity::RESIDUAL;
 use crate::report::table::{cells, csv};
 
 /// The figure.
@@ -14,30 +15,24 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
     let points = report.points();
     let residuals = || points.iter().zip(&report.made.fit.residuals);
     let measured = |part: Part, value: fn(&(f64, f64)) -> f64| {
-        let places = residuals().map(|(p, r)| (frequency(report, p), 100.0 * value(r)));
-        Series::scatter(places)
+        Trace::symbols(residuals().map(|(p, r)| (p.angular_frequency_rad_per_s, value(r))))
             .marker(part.marker)
             .color(part.color)
             .label(part.label(report))
     };
     let (lowest, highest) = report.made.fit.window_rad_per_s;
-    let mut chart = Chart::new(
-        Axis::log(frequency_title(report)),
-        Axis::linear("difference fit − data / % of the data"),
-    )
-    .series(
-        Series::line([lowest, highest].map(|omega| (unit(report).of(omega), 0.0)))
-            .color(Color::Rgb(0x40, 0x40, 0x40)),
-    )
-    .series(measured(STORAGE, |r| r.0))
-    .series(measured(LOSS, |r| r.1));
+    let mut plot = Plot::new(frequency(report), RESIDUAL).traces([
+        Trace::guide([(lowest, 0.0), (highest, 0.0)]),
+        measured(STORAGE, |r| r.0),
+        measured(LOSS, |r| r.1),
+    ]);
     let mut caption = caption(
         report,
         &format!("Relative difference of the fitted series from the data, {symbol}′ and {symbol}″"),
     );
     let samples = report.made.replicas.len();
     if Band::of(report.made, lowest, replicas::band).is_some() {
-        chart.series.extend(bands(report));
+        plot = plot.traces(bands(report));
         caption = caption.say(format!(
             "Shaded: simultaneous 95 % bands of the curves: {SIMULTANEOUS_DEVIATIONS} times the root mean square difference that \
              {samples} bootstrap samples make, series fitted to the same data with other noise."
@@ -50,16 +45,11 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
         "storage_relative_difference",
         "loss_relative_difference",
     ];
-    Figure {
-        name: "fit-residual",
-        picture: chart.into(),
-        caption,
-        data: csv(&columns, rows),
-    }
+    Figure::of("fit-residual", &[plot], caption, &units(report)).with_data(csv(&columns, rows))
 }
 
-/// The bands of both moduli, in per cent of the fit.
-fn bands(report: &DynamicReport<'_>) -> [Series; 2] {
+/// The bands of both moduli, relative to the fit.
+fn bands(report: &DynamicReport<'_>) -> [Trace; 2] {
     let [mut storage, mut loss] = [Vec::new(), Vec::new()];
     for omega in frequencies(report) {
         let own = report.relaxation().complex_modulus(omega);
@@ -67,16 +57,19 @@ fn bands(report: &DynamicReport<'_>) -> [Series; 2] {
             continue;
         };
         let relative = |half_pa: f64, own_pa: f64| {
-            let half = 100.0 * half_pa / own_pa;
+            let half = half_pa / own_pa;
             half.is_finite()
-                .then_some((unit(report).of(omega), -half, half))
+                .then(|| Point::new(omega, None).band(Some((-half, half))))
         };
         storage.extend(relative(band.storage_pa, own.re));
         loss.extend(relative(band.loss_pa, own.im));
     }
-    let [storage, loss] = [storage, loss].map(Series::band);
+    let band = |points: Vec<Point>, label: &str| Trace {
+        band_label: Some(label.to_owned()),
+        ..Trace::line(points)
+    };
     [
-        loss.color(1).label("band of the loss modulus"),
-        storage.label("band of the storage modulus"),
+        band(loss, "band of the loss modulus").color(1),
+        band(storage, "band of the storage modulus"),
     ]
 }

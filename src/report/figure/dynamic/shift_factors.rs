@@ -1,16 +1,18 @@
 //! Shift factors over temperature, with their errors and the laws through them.
 
-use super::caption;
+use super::{caption, units};
 use crate::material::dynamic::master_curve::MasterCurve;
 use crate::material::dynamic::shift_law::ShiftLaw;
-use crate::quantity::ZERO_CELSIUS_K;
-use crate::report::chart::{Axis, Chart, LineStyle, Series};
+use crate::report::chart::LineStyle;
 use crate::report::dynamic::DynamicReport;
-use crate::report::dynamic::tables::celsius;
 use crate::report::dynamic::{arrhenius, wlf};
 use crate::report::figure::Figure;
+use crate::report::figure::plot::{Plot, Point, Quantity, Trace};
+use crate::report::figure::quantity::TEMPERATURE;
+use crate::report::figure::units::Measure;
 use crate::report::number::range;
 
+const SHIFT: Quantity = Quantity::new("log10_a_t", "shift factor log₁₀ a_T", Measure::Number);
 /// Points of the curve of a law.
 const POINTS: i32 = 200;
 
@@ -18,17 +20,11 @@ const POINTS: i32 = 200;
 pub(super) fn figure(report: &DynamicReport<'_>) -> Option<Figure> {
     let master = report.made.master.as_ref()?;
     let shifts = &master.shifts;
-    let places = shifts
-        .iter()
-        .map(|s| (celsius(s.temperature_k), s.log10_a_t));
-    let errors = shifts.iter().map(|s| s.log10_a_t_error);
-    let data = Series::scatter(places).error_bars(errors);
-    let mut chart = Chart::new(
-        Axis::linear("temperature T / °C"),
-        Axis::linear("shift factor log₁₀ a_T"),
-    );
-    chart.series.extend(laws(master));
-    let chart = chart.series(data.label("isotherms"));
+    let points = shifts.iter();
+    let points = points.map(|s| Point::new(s.temperature_k, s.log10_a_t).error(s.log10_a_t_error));
+    let plot = Plot::new(TEMPERATURE, SHIFT)
+        .traces(laws(master))
+        .traces([Trace::symbols(points).label("isotherms")]);
     let (of_wlf, of_arrhenius) = (master.wlf.as_ref(), master.arrhenius.as_ref());
     let sentences = of_wlf
         .map(wlf)
@@ -42,26 +38,22 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Option<Figure> {
     let bars = any.then(|| {
         "Error bars: standard errors; those shorter than their symbol are not drawn.".to_owned()
     });
-    Some(Figure {
-        name: "shift-factors",
-        picture: chart.into(),
-        caption: caption(report, "Shift factors a_T over temperature T")
-            .say_all(sentences.map(|law| format!("{law}.")))
-            .say_all(preferred)
-            .say_all(bars),
-        data: Vec::new(),
-    })
+    let caption = caption(report, "Shift factors a_T over temperature T")
+        .say_all(sentences.map(|law| format!("{law}.")))
+        .say_all(preferred)
+        .say_all(bars);
+    Some(Figure::of("shift-factors", &[plot], caption, &units(report)).without_data())
 }
 
 /// The curves of the laws over the temperatures of the isotherms.
-fn laws(master: &MasterCurve) -> Vec<Series> {
+fn laws(master: &MasterCurve) -> Vec<Trace> {
     let (coldest, warmest) = range(master.shifts.iter().map(|s| s.temperature_k));
     let curve = |law: &dyn Fn(f64) -> Option<f64>| {
         let points = (0..=POINTS).map(|i| {
             let temperature_k = coldest + (warmest - coldest) * f64::from(i) / f64::from(POINTS);
-            Some((temperature_k - ZERO_CELSIUS_K, law(temperature_k)?))
+            Point::new(temperature_k, law(temperature_k))
         });
-        Series::line(points)
+        Trace::line(points)
     };
     let wlf = master.wlf.map(|law| {
         curve(&|temperature_k| law.log10_a_t(temperature_k))

@@ -1,58 +1,50 @@
 //! The branches of the fitted series: modulus over relaxation time.
 
-use super::caption;
+use super::{caption, units};
 use crate::quantity::{Dimension, format_human};
-use crate::report::chart::{Axis, Chart, Mark, Series};
+use crate::report::chart::Mark;
 use crate::report::dynamic::DynamicReport;
 use crate::report::figure::Figure;
-use crate::report::number::{prefix, range};
+use crate::report::figure::plot::{Plot, Point, Quantity, Spread, Trace};
+use crate::report::figure::quantity::MODULUS;
+use crate::report::figure::units::Measure;
+use crate::report::number::range;
+
+const RELAXATION_TIME: Quantity =
+    Quantity::new("time_s", "relaxation time τ", Measure::Time).spread(Spread::Log);
 
 /// The figure; its data are `prony.csv`.
 pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
     let relaxation = report.relaxation();
-    let symbol = report.symbol();
     let branches = relaxation.branches();
     let equilibrium_pa = relaxation.equilibrium_modulus();
     let moduli = branches.iter().map(|b| b.modulus_pa);
     let equilibrium = (equilibrium_pa > 0.0).then_some(equilibrium_pa);
     let (least, largest) = range(moduli.chain(equilibrium));
-    let (factor, unit) = prefix(largest);
-    // Stems stand on a decade below the least.
-    let foot = 10_f64.powf((factor * least).log10().floor() - 0.3);
-    let top = factor * largest * 4.0;
+    // Stems stand on half a decade below the least.
+    let (foot, top) = (0.4 * least, 4.0 * largest);
     let stems = branches.iter().flat_map(|branch| {
-        let head = factor * branch.modulus_pa;
-        [
-            Some((branch.time_s, foot)),
-            Some((branch.time_s, head)),
-            None,
-        ]
+        let at = |height: Option<f64>| Point::new(branch.time_s, height);
+        [at(Some(foot)), at(Some(branch.modulus_pa)), at(None)]
     });
-    let heads = branches.iter().map(|b| (b.time_s, factor * b.modulus_pa));
-    let mut chart = Chart::new(
-        Axis::log("relaxation time τ / s"),
-        Axis::log(format!("modulus of the branch {symbol}ᵢ / {unit}Pa")).range(foot, top),
-    )
-    .series(Series::line(stems))
-    .series(Series::scatter(heads));
+    let heads = branches.iter().map(|b| (b.time_s, b.modulus_pa));
     let (first_s, last_s) = report.window_s();
-    if let Some(equilibrium) = equilibrium {
-        chart = chart.mark(Mark::horizontal(
-            factor * equilibrium,
-            format!(
-                "equilibrium {}",
-                format_human(equilibrium, Dimension::Stress, 3)
-            ),
-        ));
-    }
-    chart = chart
-        .mark(Mark::vertical(first_s, "1/ω of the last point"))
-        .mark(Mark::vertical(last_s, "1/ω of the first point"));
-    Figure {
-        name: "spectrum",
-        picture: chart.into(),
-        caption: caption(report, "Relaxation spectrum: modulus of each branch of the series over its relaxation time τ")
-            .say("Dashed: equilibrium modulus, and the reciprocals of the lowest and highest frequency of the data; times outside are not resolved."),
-        data: Vec::new(),
-    }
+    let level = equilibrium.map(|modulus_pa| {
+        let modulus = format_human(modulus_pa, Dimension::Stress, 3);
+        Mark::horizontal(modulus_pa, format!("equilibrium {modulus}"))
+    });
+    let ends = [
+        Mark::vertical(first_s, "1/ω of the last point"),
+        Mark::vertical(last_s, "1/ω of the first point"),
+    ];
+    let modulus = MODULUS.called(format!("modulus of the branch {}ᵢ", report.symbol()));
+    let plot = Plot {
+        y_ends: Some((foot, top)),
+        ..Plot::new(RELAXATION_TIME, modulus)
+            .traces([Trace::line(stems), Trace::symbols(heads)])
+            .marks(level.into_iter().chain(ends))
+    };
+    let caption = caption(report, "Relaxation spectrum: modulus of each branch of the series over its relaxation time τ")
+        .say("Dashed: equilibrium modulus, and the reciprocals of the lowest and highest frequency of the data; times outside are not resolved.");
+    Figure::of("spectrum", &[plot], caption, &units(report)).without_data()
 }

@@ -1,0 +1,732 @@
+//! One frame of a figure: points in SI units over two quantities. From it come the chart, whose prefixes, scales and titles are
+//! chosen here, and the table behind the figure, so that both say the same.
+
+use std::borrow::Cow;
+
+use super::smooth;
+use super::units::{Measure, Shown, Units};
+use crate::drive::Control;
+use crate::quantity::FrequencyUnit;
+use crate::report::chart::{
+    Axis, Chart, Color, ColorScale, LegendPlace, LineStyle, Mark, MarkPlace, Marker, Scale, Series,
+};
+use crate::report::number::{largest, range};
+use crate::report::table::{Cell, csv_leading};
+use crate::sweep::plan::Varied;
+
+/// What is along an axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quantity {
+    /// Its column in tables, with the SI unit as its last part.
+    pub column: Cow<'static, str>,
+    /// In words, with its symbol: `load W`.
+    pub words: Cow<'static, str>,
+    pub measure: Measure,
+    pub spread: Spread,
+}
+
+/// When an axis is logarithmic.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Spread {
+    Linear,
+    Log,
+    /// Where values, all above zero, are more than [`WIDE`] times apart and not evenly spaced.
+    OfValues,
+    /// Where the highest points of the curves are: on a linear axis the lowest curve would lie on the axis.
+    OfCurves,
+}
+
+/// Values more than so many times apart are not seen together on a linear axis.
+const WIDE: f64 = 8.0;
+/// The same of the highest points of curves.
+const WIDE_CURVES: f64 = 20.0;
+
+impl Quantity {
+    pub const fn new(column: &'static str, words: &'static str, measure: Measure) -> Self {
+        Self {
+            column: Cow::Borrowed(column),
+            words: Cow::Borrowed(words),
+            measure,
+            spread: Spread::Linear,
+        }
+    }
+
+    /// The same, on an axis that is logarithmic under this condition.
+    #[must_use]
+    pub const fn spread(mut self, spread: Spread) -> Self {
+        self.spread = spread;
+        self
+    }
+
+    /// The same in other words.
+    #[must_use]
+    pub fn called(mut self, words: impl Into<Cow<'static, str>>) -> Self {
+        self.words = words.into();
+        self
+    }
+
+    /// The frequency, in the words of its unit.
+    pub fn frequency(units: &Units) -> Self {
+        Self::new(
+            FrequencyUnit::RadPerS.column(),
+            "",
+            Measure::AngularFrequency,
+        )
+        .spread(Spread::Log)
+        .called(units.frequency_words())
+    }
+
+    /// What an axis of a sweep varies.
+    pub fn varied(varied: &Varied, control: Control) -> Self {
+        let words = match varied.has_own_column() {
+            true => varied.words(),
+            false => format!("{} {}", control.name(), varied.name()),
+        };
+        Self {
+            column: varied.column().into(),
+            ..Self::new("", "", Units::measure_of(varied))
+                .spread(Spread::OfValues)
+                .called(words)
+        }
+    }
+
+    /// The column of something that belongs to a value, such as its error: `energy_loss_error_j`.
+    fn column_of(&self, what: &str) -> String {
+        let unit = self.measure.suffix();
+        let stem = match unit.is_empty() {
+            true => &*self.column,
+            false => self
+                .column
+                .strip_suffix(&*unit)
+                .and_then(|stem| stem.strip_suffix('_'))
+                .unwrap_or(&self.column),
+        };
+        match unit.is_empty() || stem == self.column {
+            true => format!("{stem}_{what}"),
+            false => format!("{stem}_{what}_{unit}"),
+        }
+    }
+}
+
+/// A point of a curve, in SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    pub x: f64,
+    /// `None` where there is no value: the line is broken.
+    pub y: Option<f64>,
+    /// Half the length of the error bar.
+    pub error: Option<f64>,
+    /// The two edges of a band.
+    pub band: Option<(f64, f64)>,
+}
+
+impl Point {
+    pub fn new(x: f64, y: impl Into<Option<f64>>) -> Self {
+        Self {
+            x,
+            y: y.into(),
+            error: None,
+            band: None,
+        }
+    }
+
+    #[must_use]
+    pub fn error(self, error: impl Into<Option<f64>>) -> Self {
+        Self {
+            error: error.into(),
+            ..self
+        }
+    }
+
+    #[must_use]
+    pub fn band(self, band: Option<(f64, f64)>) -> Self {
+        Self { band, ..self }
+    }
+}
+
+impl From<(f64, f64)> for Point {
+    fn from((x, y): (f64, f64)) -> Self {
+        Self::new(x, y)
+    }
+}
+
+/// One curve or one set of symbols.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trace {
+    pub points: Vec<Point>,
+    /// The entry in the legend, and what tells it apart in the table.
+    pub label: Option<String>,
+    /// What the band is called in the legend.
+    pub band_label: Option<String>,
+    /// Its value of [`Plot::family`].
+    pub member: Option<f64>,
+    pub line: Option<LineStyle>,
+    pub marker: Option<Marker>,
+    pub color: Color,
+    /// Symbols that crowd are left out.
+    pub spaced: bool,
+    /// The line is smooth, through located extremes, where the points resolve it.
+    pub smooth: Option<Vec<(f64, f64)>>,
+    /// Fills the area down to this y.
+    pub area_to: Option<f64>,
+    /// Whether its points stand in the table.
+    pub in_table: bool,
+}
+
+impl Trace {
+    /// A line through points.
+    pub fn line<P: Into<Point>>(points: impl IntoIterator<Item = P>) -> Self {
+        Self {
+            points: points.into_iter().map(Into::into).collect(),
+            label: None,
+            band_label: None,
+            member: None,
+            line: Some(LineStyle::Solid),
+            marker: None,
+            color: Color::Palette(0),
+            spaced: false,
+            smooth: None,
+            area_to: None,
+            in_table: true,
+        }
+    }
+
+    /// Symbols without a line.
+    pub fn symbols<P: Into<Point>>(points: impl IntoIterator<Item = P>) -> Self {
+        Self {
+            line: None,
+            marker: Some(Marker::Disc),
+            ..Self::line(points)
+        }
+    }
+
+    /// A line that helps to read the others, such as that of zero: not in the table.
+    pub fn guide(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        Self {
+            in_table: false,
+            color: Color::Rgb(0x40, 0x40, 0x40),
+            ..Self::line(points)
+        }
+    }
+
+    #[must_use]
+    pub fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = Some(label.into());
+        self
+    }
+
+    #[must_use]
+    pub fn maybe_label(self, label: Option<String>) -> Self {
+        Self { label, ..self }
+    }
+
+    #[must_use]
+    pub fn member(mut self, value: impl Into<Option<f64>>) -> Self {
+        self.member = value.into();
+        self
+    }
+
+    #[must_use]
+    pub fn marker(mut self, marker: Marker) -> Self {
+        self.marker = Some(marker);
+        self
+    }
+
+    #[must_use]
+    pub fn style(mut self, style: LineStyle) -> Self {
+        self.line = Some(style);
+        self
+    }
+
+    #[must_use]
+    pub fn color(mut self, color: impl Into<Color>) -> Self {
+        self.color = color.into();
+        self
+    }
+
+    #[must_use]
+    pub fn spaced(mut self) -> Self {
+        self.spaced = true;
+        self
+    }
+
+    /// The line is smooth where the points resolve it, and goes through these too, which were located between them.
+    #[must_use]
+    pub fn smooth(mut self, located: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        self.smooth = Some(located.into_iter().collect());
+        self
+    }
+
+    /// Some of the curves of a family in the colours and with the symbols of their order.
+    #[must_use]
+    pub fn of_family(mut self, step: usize, of: usize) -> Self {
+        self.color = Color::of_family(step, of);
+        self.marker = self.marker.map(|_| Marker::nth(step));
+        self
+    }
+
+    fn highest(&self) -> f64 {
+        range(self.points.iter().filter_map(|point| point.y)).1
+    }
+}
+
+/// A frame with its curves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plot {
+    pub x: Quantity,
+    pub y: Quantity,
+    /// What the curves are a family of: a column of the table.
+    pub family: Option<Quantity>,
+    pub traces: Vec<Trace>,
+    /// Places in SI units.
+    pub marks: Vec<Mark>,
+    pub title: Option<String>,
+    pub legend: Option<LegendPlace>,
+    pub color_scale: Option<ColorScale>,
+    /// Where the axes end; `None`: as the points ask for.
+    pub x_ends: Option<(f64, f64)>,
+    pub y_ends: Option<(f64, f64)>,
+    /// Of a picture 800 px wide; `None`: by the number of frames.
+    pub height_px: Option<u32>,
+}
+
+impl Plot {
+    pub fn new(x: Quantity, y: Quantity) -> Self {
+        Self {
+            x,
+            y,
+            family: None,
+            traces: Vec::new(),
+            marks: Vec::new(),
+            title: None,
+            legend: Some(LegendPlace::Auto),
+            color_scale: None,
+            x_ends: None,
+            y_ends: None,
+            height_px: None,
+        }
+    }
+
+    #[must_use]
+    pub fn family(mut self, family: impl Into<Option<Quantity>>) -> Self {
+        self.family = family.into();
+        self
+    }
+
+    #[must_use]
+    pub fn traces(mut self, traces: impl IntoIterator<Item = Trace>) -> Self {
+        self.traces.extend(traces);
+        self
+    }
+
+    #[must_use]
+    pub fn marks(mut self, marks: impl IntoIterator<Item = Mark>) -> Self {
+        self.marks.extend(marks);
+        self
+    }
+
+    #[must_use]
+    pub fn title(self, title: Option<String>) -> Self {
+        Self { title, ..self }
+    }
+
+    #[must_use]
+    pub fn legend(self, legend: Option<LegendPlace>) -> Self {
+        Self { legend, ..self }
+    }
+
+    #[must_use]
+    pub fn x_ends(self, low: f64, high: f64) -> Self {
+        Self {
+            x_ends: Some((low, high)).filter(|(low, high)| low < high),
+            ..self
+        }
+    }
+
+    #[must_use]
+    pub fn height(self, height_px: u32) -> Self {
+        Self {
+            height_px: Some(height_px),
+            ..self
+        }
+    }
+
+    /// How many points have no place on the scales of the axes.
+    pub fn without_place(&self) -> usize {
+        let [x, y] = self.scales();
+        let has_place = |scale: Scale, value: f64| scale == Scale::Linear || value > 0.0;
+        let points = self.traces.iter().flat_map(|trace| &trace.points);
+        let points = points.filter_map(|point| Some((point.x, point.y?)));
+        points
+            .filter(|(px, py)| !(has_place(x, *px) && has_place(y, *py)))
+            .count()
+    }
+
+    /// The scales of both axes.
+    fn scales(&self) -> [Scale; 2] {
+        let xs = || {
+            let points = self.traces.iter().flat_map(|trace| &trace.points);
+            points
+                .map(|point| point.x)
+                .chain(self.marked().map(|m| m.0))
+        };
+        let ys = || {
+            let points = self.traces.iter().flat_map(|trace| &trace.points);
+            let ys = points.filter_map(|point| point.y);
+            ys.chain(self.marked().map(|mark| mark.1))
+        };
+        let highest = self.traces.iter().map(Trace::highest);
+        let highest: Vec<f64> = highest.filter(|height| *height > 0.0).collect();
+        let of = |quantity: &Quantity, values: Vec<f64>| match quantity.spread {
+            Spread::Linear => Scale::Linear,
+            Spread::Log => Scale::Log,
+            Spread::OfCurves => scale(range(highest.iter().copied()), WIDE_CURVES),
+            Spread::OfValues if is_even(&values) => Scale::Linear,
+            Spread::OfValues => scale(range(values), WIDE),
+        };
+        [of(&self.x, xs().collect()), of(&self.y, ys().collect())]
+    }
+
+    /// Places of the marks that are points.
+    fn marked(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.marks.iter().filter_map(|mark| match mark.place {
+            MarkPlace::Point { x, y } => Some((x, y)),
+            MarkPlace::Vertical { .. } | MarkPlace::Horizontal { .. } => None,
+        })
+    }
+
+    /// How both axes are shown, with their titles.
+    fn axes(&self, units: &Units) -> [(Axis, Shown); 2] {
+        let points = || self.traces.iter().flat_map(|trace| &trace.points);
+        let xs = points().map(|point| point.x);
+        let ys = points().flat_map(|p| [p.y, p.band.map(|band| band.1)]);
+        let marks = || self.marked();
+        let sizes = [
+            largest(xs.chain(marks().map(|m| m.0)).map(f64::abs)),
+            largest(ys.flatten().chain(marks().map(|m| m.1)).map(f64::abs)),
+        ];
+        let [x_scale, y_scale] = self.scales();
+        let axis = |quantity: &Quantity, scale, ends: Option<(f64, f64)>, size| {
+            let shown = units.shown(quantity.measure, size);
+            let axis = Axis {
+                label: shown.title(&quantity.words),
+                scale,
+                range: ends.map(|(low, high)| (shown.of(low), shown.of(high))),
+            };
+            (axis, shown)
+        };
+        [
+            axis(&self.x, x_scale, self.x_ends, sizes[0]),
+            axis(&self.y, y_scale, self.y_ends, sizes[1]),
+        ]
+    }
+
+    /// The smooth line of a trace on these scales; `None` where its points do not resolve one.
+    fn smooth(&self, trace: &Trace, [x, y]: [Scale; 2]) -> Option<Vec<Option<(f64, f64)>>> {
+        let on = |scale: Scale, value: f64| match scale {
+            Scale::Log => (value > 0.0).then(|| value.log10()),
+            Scale::Linear => Some(value),
+        };
+        let place = |(px, py): (f64, f64)| Some((on(x, px)?, on(y, py)?));
+        let located: Vec<_> = trace
+            .smooth
+            .iter()
+            .flatten()
+            .copied()
+            .filter_map(place)
+            .collect();
+        let points: Vec<Option<(f64, f64)>> = trace
+            .points
+            .iter()
+            .map(|point| place((point.x, point.y?)))
+            .collect();
+        trace.smooth.as_ref()?;
+        let mut drawn = Vec::new();
+        for run in points.split(Option::is_none).filter(|run| !run.is_empty()) {
+            let run: Vec<(f64, f64)> = run.iter().copied().flatten().collect();
+            let curve = match run.len() {
+                1 => run,
+                _ => smooth::curve(&run, &located)?,
+            };
+            drawn.extend(
+                curve
+                    .into_iter()
+                    .map(|(px, py)| Some((x.value(px), y.value(py)))),
+            );
+            drawn.push(None);
+        }
+        Some(drawn)
+    }
+
+    /// Whether all curves that are to be smooth are; `None` where none is to be.
+    fn is_smooth(&self) -> Option<bool> {
+        let scales = self.scales();
+        let all = self.traces.iter().filter(|trace| trace.smooth.is_some());
+        let all: Vec<bool> = all
+            .map(|trace| self.smooth(trace, scales).is_some())
+            .collect();
+        (!all.is_empty()).then(|| !all.contains(&false))
+    }
+
+    /// The chart.
+    pub fn chart(&self, units: &Units) -> Chart {
+        let [(x_axis, x), (y_axis, y)] = self.axes(units);
+        let on = Axes {
+            scales: [x_axis.scale, y_axis.scale],
+            shown: [x, y],
+        };
+        let bands = self.traces.iter().filter_map(|trace| on.band(trace));
+        let series = self.traces.iter().enumerate().map(|(k, trace)| {
+            let mut series = on.series(trace, &self.heights(k));
+            if let Some(smooth) = self.smooth(trace, on.scales) {
+                let curve = smooth.into_iter().map(|point| on.place(point?));
+                series.curve = Some(curve.collect());
+            }
+            series
+        });
+        let mut chart = Chart::new(x_axis, y_axis)
+            .maybe_title(self.title.clone())
+            .legend(self.legend)
+            .all_series(bands)
+            .all_series(series)
+            .all_marks(self.marks.iter().filter_map(|mark| on.mark(mark)));
+        chart.color_scale = self.color_scale.clone();
+        chart
+    }
+
+    /// The heights at which the points of a trace are drawn: areas stand on those that come after them.
+    fn heights(&self, k: usize) -> Vec<Option<f64>> {
+        let own = &self.traces[k];
+        let stack = match own.area_to {
+            Some(_) => &self.traces[k..],
+            None => std::slice::from_ref(own),
+        };
+        let areas = stack.iter().filter(|trace| trace.area_to == own.area_to);
+        let areas: Vec<&Trace> = areas.collect();
+        let height = |i: usize| {
+            let heights = areas.iter().map(|area| area.points.get(i)?.y);
+            heights.sum::<Option<f64>>()
+        };
+        (0..own.points.len()).map(height).collect()
+    }
+}
+
+/// How values come to their places on both axes.
+struct Axes {
+    scales: [Scale; 2],
+    shown: [Shown; 2],
+}
+
+impl Axes {
+    /// One value on one of the axes; `None` where a logarithmic axis has no place for it.
+    fn along(&self, axis: usize, value: f64) -> Option<f64> {
+        let has_place = self.scales[axis] == Scale::Linear || value > 0.0;
+        has_place.then(|| self.shown[axis].of(value))
+    }
+
+    fn place(&self, (x, y): (f64, f64)) -> Option<(f64, f64)> {
+        Some((self.along(0, x)?, self.along(1, y)?))
+    }
+
+    fn band(&self, trace: &Trace) -> Option<Series> {
+        let edges = trace.points.iter().filter_map(|point| {
+            let (low, high) = point.band?;
+            let (at, high) = self.place((point.x, high))?;
+            // On a logarithmic axis what reaches to zero reaches to the edge of the frame.
+            let low = self.along(1, low).unwrap_or(1e-3 * high);
+            Some((at, low, high))
+        });
+        let edges: Vec<_> = edges.collect();
+        (edges.len() > 1).then(|| Series {
+            label: trace.band_label.clone(),
+            ..Series::band(edges).color(trace.color)
+        })
+    }
+
+    fn series(&self, trace: &Trace, heights: &[Option<f64>]) -> Series {
+        let points = trace.points.iter().zip(heights);
+        let series = Series {
+            label: trace.label.clone(),
+            line: trace.line.filter(|_| trace.area_to.is_none()),
+            marker: trace.marker,
+            color: trace.color,
+            spaced: trace.spaced,
+            area_to: trace.area_to.map(|base| self.shown[1].of(base)),
+            ..Series::line(points.map(|(point, height)| self.place((point.x, (*height)?))))
+        };
+        match trace.points.iter().any(|point| point.error.is_some()) {
+            false => series,
+            true => {
+                let errors = trace.points.iter().map(|point| point.error);
+                let errors = errors.map(|error| Some(self.shown[1].of_difference(error?)));
+                series.error_bars(errors.collect::<Vec<_>>())
+            }
+        }
+    }
+
+    fn mark(&self, mark: &Mark) -> Option<Mark> {
+        let place = match mark.place {
+            MarkPlace::Point { x, y } => {
+                let (x, y) = self.place((x, y))?;
+                MarkPlace::Point { x, y }
+            }
+            MarkPlace::Vertical { x } => MarkPlace::Vertical {
+                x: self.along(0, x)?,
+            },
+            MarkPlace::Horizontal { y } => MarkPlace::Horizontal {
+                y: self.along(1, y)?,
+            },
+        };
+        Some(Mark {
+            place,
+            ..mark.clone()
+        })
+    }
+}
+
+/// Logarithmic where values between these two are positive and more than `wide` times apart.
+pub(super) fn scale((least, largest): (f64, f64), wide: f64) -> Scale {
+    match least > 0.0 && largest > wide * least {
+        true => Scale::Log,
+        false => Scale::Linear,
+    }
+}
+
+/// Whether values, as those of an axis that was asked for with linear spacing, have equal distances: three of them or more.
+pub(super) fn is_even(values: &[f64]) -> bool {
+    let mut values = values.to_vec();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    let (Some(first), Some(last)) = (values.first(), values.last()) else {
+        return false;
+    };
+    let steps = (values.len() - 1) as f64;
+    let even = |k: usize| first + (last - first) * k as f64 / steps;
+    let off = |(k, value): (usize, &f64)| (value - even(k)).abs() <= 1e-3 * (last - first) / steps;
+    values.len() > 2 && values.iter().enumerate().all(off)
+}
+
+/// The charts of frames one above another: the last has the title of x, the first the legend.
+pub(super) fn charts(plots: &[Plot], units: &Units) -> Vec<Chart> {
+    /// Of one frame alone, of one of two, and of one of several; the last is higher by the title of its axis.
+    const HEIGHTS_PX: [u32; 3] = [600, 360, 250];
+    const TITLE_PX: u32 = 25;
+    let last = plots.len().saturating_sub(1);
+    let chart = |(k, plot): (usize, &Plot)| {
+        let mut chart = plot.chart(units);
+        chart.size.height_px = plot.height_px.unwrap_or(HEIGHTS_PX[last.min(2)]);
+        if k < last {
+            chart.x.label.clear();
+        } else if last > 0 && plot.height_px.is_none() {
+            chart.size.height_px += TITLE_PX;
+        }
+        if k > 0 {
+            chart.legend = None;
+        }
+        chart
+    };
+    plots.iter().enumerate().map(chart).collect()
+}
+
+/// What lines through the points of these frames are, in words; nothing where no line is to be smooth.
+pub(super) fn lines_in_words(plots: &[Plot]) -> Option<&'static str> {
+    let smooth: Vec<bool> = plots.iter().filter_map(Plot::is_smooth).collect();
+    match smooth.contains(&false) {
+        _ if smooth.is_empty() => None,
+        false => Some("Lines: monotone cubic interpolation of the computed points."),
+        true => Some(
+            "Straight lines join computed points where these are too few to draw a smooth curve.",
+        ),
+    }
+}
+
+/// The table of frames: a row per point, frames over the same points side by side.
+pub(super) fn table(plots: &[Plot], unit: FrequencyUnit) -> Vec<u8> {
+    let mut table = Table::default();
+    for plot in plots {
+        for trace in plot.traces.iter().filter(|trace| trace.in_table) {
+            table.add(plot, trace);
+        }
+    }
+    csv_leading(
+        unit,
+        &table.columns,
+        table.rows.iter().map(|row| {
+            let mut cells = vec![Cell::Absent; table.columns.len()];
+            for (place, cell) in row {
+                cells[*place] = cell.clone();
+            }
+            cells
+        }),
+    )
+}
+
+/// Rows of cells by the places of their columns.
+#[derive(Default)]
+struct Table {
+    columns: Vec<String>,
+    rows: Vec<Vec<(usize, Cell)>>,
+    /// Which curves over which points there are already, and in which row each begins.
+    curves: Vec<(String, Vec<f64>, usize)>,
+}
+
+impl Table {
+    /// The place of a column, which is added where it is new.
+    fn place(&mut self, name: impl Into<String>) -> usize {
+        let name = name.into();
+        let known = self.columns.iter().position(|column| *column == name);
+        known.unwrap_or_else(|| {
+            self.columns.push(name);
+            self.columns.len() - 1
+        })
+    }
+
+    fn add(&mut self, plot: &Plot, trace: &Trace) {
+        let first = self.first_row(plot, trace);
+        let of_errors = |value: fn(&Point) -> Option<f64>| {
+            let values = trace.points.iter().map(value);
+            values.collect::<Vec<_>>()
+        };
+        let (y, column_of) = (&plot.y, |what| plot.y.column_of(what));
+        let columns = [
+            (y.column.to_string(), of_errors(|point| point.y)),
+            (column_of("error"), of_errors(|point| point.error)),
+            (column_of("lower"), of_errors(|point| Some(point.band?.0))),
+            (column_of("upper"), of_errors(|point| Some(point.band?.1))),
+        ];
+        for (k, (name, values)) in columns.into_iter().enumerate() {
+            if k > 0 && values.iter().all(Option::is_none) {
+                continue;
+            }
+            let place = self.place(name);
+            for (row, value) in self.rows[first..].iter_mut().zip(values) {
+                row.push((place, Cell::from(value)));
+            }
+        }
+    }
+
+    /// The row of the first point of a curve: that of the same curve over the same points in an earlier frame, or a new one.
+    fn first_row(&mut self, plot: &Plot, trace: &Trace) -> usize {
+        let xs: Vec<f64> = trace.points.iter().map(|point| point.x).collect();
+        let name = format!("{} {:?} {:?}", plot.x.column, trace.label, trace.member);
+        let mut known = self.curves.iter();
+        if let Some((.., first)) = known.find(|(n, x, _)| *n == name && *x == xs) {
+            return *first;
+        }
+        let which = match (&plot.family, trace.member, &trace.label) {
+            (Some(family), Some(member), _) => {
+                Some((self.place(&*family.column), Cell::from(member)))
+            }
+            (_, _, Some(label)) => Some((self.place("curve"), Cell::from(label.as_str()))),
+            (_, _, None) => None,
+        };
+        let x = self.place(&*plot.x.column);
+        let first = self.rows.len();
+        self.rows.extend(xs.iter().map(|value| {
+            let place = (x, Cell::from(*value));
+            which.clone().into_iter().chain([place]).collect()
+        }));
+        self.curves.push((name, xs, first));
+        first
+    }
+}
