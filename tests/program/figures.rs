@@ -227,7 +227,11 @@ fn captions_hold_the_numbers_of_the_data_and_are_the_description_of_the_picture(
     let table = place.table("out/energy-loss.csv");
     // Every point of the curve is a case of the sweep.
     let sweep = place.table("out/sweep.csv");
-    for column in ["angular_frequency_rad_per_s", "energy_loss_j", "energy_loss_error_j"] {
+    for column in [
+        "angular_frequency_rad_per_s",
+        "energy_loss_j",
+        "energy_loss_error_j",
+    ] {
         assert_eq!(table.found(column), sweep.found(column), "{column}");
     }
     let summary = place.json("out/summary.json");

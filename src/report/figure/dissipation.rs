@@ -30,6 +30,9 @@ pub fn figure(sweep: &SweepCurves<'_>, curve: &Curve<'_>) -> Drawn {
             _ => "no dissipation figure: the material has no relaxation branches",
         });
     }
+    let peaks = sweep.peaks_of(curve);
+    let located = peaks.map(|peak| (peak.angular_frequency_rad_per_s, peak.energy_loss_j));
+    let located: Vec<(f64, f64)> = located.collect();
     let of = bands.iter().filter(|band| !band.is_rest).count();
     let areas = bands.iter().enumerate().map(|(k, band)| {
         let color = match band.is_rest {
@@ -45,14 +48,17 @@ pub fn figure(sweep: &SweepCurves<'_>, curve: &Curve<'_>) -> Drawn {
             let loss = place.and_then(|place| band.losses_j.get(place).copied());
             Point::new(sweep.place(record), loss)
         });
+        let area = Trace::line(points).label(&band.label).color(color);
         Trace {
             area_to: Some(0.0),
-            ..Trace::line(points).label(&band.label).color(color)
+            // Through the located peak as the total is, which it is under.
+            ..area.smooth(if k == 0 { located.clone() } else { Vec::new() })
         }
     });
     let records = curve.records.iter();
     let total = records.map(|r| Point::new(sweep.place(r), r.energy_loss_j()));
     let total = Trace::line(total)
+        .smooth(located.clone())
         .label("area of the loop")
         .color(Color::Rgb(0, 0, 0));
     let plot = Plot::new(sweep.x.clone(), ENERGY_LOSS.spread(Spread::Linear))

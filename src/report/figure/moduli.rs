@@ -205,8 +205,12 @@ impl Diagram {
         };
         let only = curves.first().filter(|_| curves.len() == 1);
         let bars = self.parts.iter().any(|part| part.error.is_some());
+        let are_told = self.parts.len() > 1 && curves.len() > 1;
+        let told =
+            are_told.then(|| "Solid lines and discs: E′; dashed lines and squares: E″.".to_owned());
         Caption::new(shows)
             .say_all(only.and_then(|(curve, _)| curve.sentence.clone()))
+            .say_all(told)
             .say(
                 "Lines: the material's longitudinal modulus. Symbols: what indentation reads from the hysteresis loops, \
                  E′ = (1 − ν²)W₁cosφ/(2aδ₁) and E″ with sinφ, W₁ and δ₁ being the first harmonics of load and approach, φ the \
@@ -229,33 +233,40 @@ struct Look<'a> {
 }
 
 impl Look<'_> {
-    /// What stands in the legend: what it is, and of which curve.
-    fn label(&self, part: &Part, what: &str) -> String {
-        let what = match (self.is_only, self.curve) {
-            (true, _) => what.to_owned(),
-            (false, _) => format!("{} {what}", part.label),
+    /// What it is, and of which curve. Of several curves the legend has their names alone: what lines and symbols are is in the caption.
+    fn labelled(&self, trace: Trace, part: &Part, what: &str, stands_for_curve: bool) -> Trace {
+        let what = match self.is_only {
+            true => what.to_owned(),
+            false => format!("{} {what}", part.label),
         };
         match self.curve {
-            Some(curve) => format!("{curve}, {what}"),
-            None => what,
+            None => trace.label(what),
+            Some(curve) if stands_for_curve => Trace {
+                legend: Some(curve.to_owned()),
+                ..trace.label(format!("{curve}, {what}"))
+            },
+            Some(curve) => Trace {
+                in_legend: false,
+                ..trace.label(format!("{curve}, {what}"))
+            },
         }
     }
 
     fn line(&self, part: &Part, points: impl Iterator<Item = Point>) -> Trace {
-        Trace::line(points)
-            .style(part.style)
-            .color(self.color)
-            .label(self.label(part, "of the material"))
+        let trace = Trace::line(points).style(part.style).color(self.color);
+        self.labelled(trace, part, "of the material", part.label != LOSS.label)
     }
 
     fn symbols(&self, part: &Part, points: impl Iterator<Item = Point>) -> Trace {
         // A lone number has the second colour where the line has the first.
         let color = self.color + usize::from(self.is_only && self.curve.is_none());
-        Trace::symbols(points)
-            .spaced()
-            .marker(part.marker)
-            .color(Color::Palette(color))
-            .label(self.label(part, "from the loops"))
+        let trace = Trace::symbols(points).spaced().marker(part.marker);
+        self.labelled(
+            trace.color(Color::Palette(color)),
+            part,
+            "from the loops",
+            false,
+        )
     }
 }
 

@@ -171,6 +171,9 @@ pub struct Trace {
     pub area_to: Option<f64>,
     /// Whether its points stand in the table.
     pub in_table: bool,
+    /// Whether its label stands in the legend too, or what does in its place.
+    pub in_legend: bool,
+    pub legend: Option<String>,
 }
 
 impl Trace {
@@ -188,6 +191,8 @@ impl Trace {
             smooth: None,
             area_to: None,
             in_table: true,
+            in_legend: true,
+            legend: None,
         }
     }
 
@@ -421,8 +426,13 @@ impl Plot {
         ]
     }
 
-    /// The smooth line of a trace on these scales; `None` where its points do not resolve one.
-    fn smooth(&self, trace: &Trace, [x, y]: [Scale; 2]) -> Option<Vec<Option<(f64, f64)>>> {
+    /// The smooth line of a trace at these heights; `None` where its points do not resolve one.
+    fn smooth(
+        &self,
+        trace: &Trace,
+        heights: &[Option<f64>],
+        [x, y]: [Scale; 2],
+    ) -> Option<Vec<Option<(f64, f64)>>> {
         let on = |scale: Scale, value: f64| match scale {
             Scale::Log => (value > 0.0).then(|| value.log10()),
             Scale::Linear => Some(value),
@@ -435,11 +445,9 @@ impl Plot {
             .copied()
             .filter_map(place)
             .collect();
-        let points: Vec<Option<(f64, f64)>> = trace
-            .points
-            .iter()
-            .map(|point| place((point.x, point.y?)))
-            .collect();
+        let points = trace.points.iter().zip(heights);
+        let points = points.map(|(point, height)| place((point.x, (*height)?)));
+        let points: Vec<Option<(f64, f64)>> = points.collect();
         trace.smooth.as_ref()?;
         let mut drawn = Vec::new();
         for run in points.split(Option::is_none).filter(|run| !run.is_empty()) {
@@ -461,10 +469,10 @@ impl Plot {
     /// Whether all curves that are to be smooth are; `None` where none is to be.
     fn is_smooth(&self) -> Option<bool> {
         let scales = self.scales();
-        let all = self.traces.iter().filter(|trace| trace.smooth.is_some());
-        let all: Vec<bool> = all
-            .map(|trace| self.smooth(trace, scales).is_some())
-            .collect();
+        let all = self.traces.iter().enumerate();
+        let all = all.filter(|(_, trace)| trace.smooth.is_some());
+        let is_smooth = |(k, trace)| self.smooth(trace, &self.heights(k), scales).is_some();
+        let all: Vec<bool> = all.map(is_smooth).collect();
         (!all.is_empty()).then(|| !all.contains(&false))
     }
 
@@ -477,10 +485,13 @@ impl Plot {
         };
         let bands = self.traces.iter().filter_map(|trace| on.band(trace));
         let series = self.traces.iter().enumerate().map(|(k, trace)| {
-            let mut series = on.series(trace, &self.heights(k));
-            if let Some(smooth) = self.smooth(trace, on.scales) {
-                let curve = smooth.into_iter().map(|point| on.place(point?));
-                series.curve = Some(curve.collect());
+            let heights = self.heights(k);
+            let mut series = on.series(trace, &heights);
+            let smooth = self.smooth(trace, &heights, on.scales);
+            let curve = smooth.map(|points| points.into_iter().map(|at| on.place(at?)).collect());
+            match (series.area_to, curve) {
+                (Some(_), Some(curve)) => series.points = curve,
+                (_, curve) => series.curve = curve,
             }
             series
         });
@@ -545,8 +556,9 @@ impl Axes {
 
     fn series(&self, trace: &Trace, heights: &[Option<f64>]) -> Series {
         let points = trace.points.iter().zip(heights);
+        let label = trace.label.clone().filter(|_| trace.in_legend);
         let series = Series {
-            label: trace.label.clone(),
+            label: trace.legend.clone().or(label),
             line: trace.line.filter(|_| trace.area_to.is_none()),
             marker: trace.marker,
             color: trace.color,
