@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use contact_dma::report::caption::Setting;
 use contact_dma::report::chart::{ChartError, Drawing};
 use contact_dma::report::figure::{self, Picture};
 use contact_dma::report::kept_figures::KeptFigures;
-use contact_dma::sweep::plan::figures::FigurePlan;
+use contact_dma::sweep::plan::figures::{FigurePlan, SvgText};
 use contact_dma::sweep::store::write_atomically;
 use pyo3::prelude::*;
 
@@ -18,12 +19,13 @@ pub struct Figure {
     #[pyo3(get)]
     name: String,
     picture: Picture,
+    caption: String,
     plan: FigurePlan,
 }
 
 #[pymethods]
 impl Figure {
-    /// Writes it as its ending says: ``.svg``, ``.pdf`` or ``.png``.
+    /// Writes it as its ending says: ``.svg``, ``.pdf``, ``.eps`` or ``.png``.
     ///
     /// Args:
     ///     file: is replaced where it is there.
@@ -32,8 +34,12 @@ impl Figure {
         let bytes = py.detach(|| {
             let drawing = self.drawing()?;
             Ok(match ending {
-                Some("svg") => Some(drawing.to_svg().into_bytes()),
+                Some("svg") => Some(match self.plan.svg_text {
+                    SvgText::Outlines => drawing.to_svg().into_bytes(),
+                    SvgText::Text => drawing.to_svg_with_text().into_bytes(),
+                }),
                 Some("pdf") => Some(drawing.to_pdf()?),
+                Some("eps") => Some(drawing.to_eps().into_bytes()),
                 Some("png") => Some(drawing.to_png_at(self.plan.dpi.unwrap_or(DPI))?),
                 _ => None,
             })
@@ -42,7 +48,7 @@ impl Figure {
         let bytes = bytes.ok_or_else(|| {
             let name = file.display();
             failure::of_value(format!(
-                "{name} is no name of a picture: end it with .svg, .pdf or .png"
+                "{name} is no name of a picture: end it with .svg, .pdf, .eps or .png"
             ))
         })?;
         write(&file, &bytes)
@@ -66,7 +72,7 @@ fn write(file: &Path, bytes: &[u8]) -> PyResult<()> {
 
 impl Figure {
     fn drawing(&self) -> Result<Drawing, ChartError> {
-        self.picture.as_asked(&self.plan)
+        self.picture.as_asked(&self.plan, &self.caption)
     }
 
     /// Figures to be drawn as asked.
@@ -74,6 +80,7 @@ impl Figure {
         let figures = figures.into_iter();
         let named = figures.map(|figure| Self {
             name: figure.name.to_string(),
+            caption: figure.caption.text(&Setting::default()),
             picture: figure.picture,
             plan: plan.clone(),
         });
@@ -88,6 +95,7 @@ pub fn kept_figures(file: &[u8]) -> PyResult<Vec<Figure>> {
     let figures = kept.into_pictures().map(|(name, picture)| Figure {
         name,
         picture,
+        caption: String::new(),
         plan: FigurePlan::default(),
     });
     Ok(figures.collect())

@@ -1,12 +1,13 @@
 //! Pictures on paper: their size, their forms and the memory that drawing them takes, from what the `[figures]` table asks for.
 
-use crate::sweep::plan::figures::{FigurePlan, Format};
+use crate::sweep::plan::figures::{FigurePlan, Format, SvgText};
 
 /// How one picture is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Form {
-    Svg,
+    Svg(SvgText),
     Pdf,
+    Eps,
     /// With this many pixels per inch on paper.
     PngOfDpi(usize),
     /// With this many pixels per px.
@@ -66,7 +67,7 @@ pub fn drawing_bytes(plan: &FigurePlan, threads: usize) -> u64 {
     let height_m = paper.and_then(|paper| paper.height_m);
     let area_m2 = width_m * height_m.unwrap_or(HEIGHT * width_m);
     let pixels = |form: &Form| match form {
-        Form::Svg | Form::Pdf => 0.0,
+        Form::Svg(_) | Form::Pdf | Form::Eps => 0.0,
         Form::PngOfDpi(dpi) => area_m2 * (*dpi as f64 / 0.0254).powi(2),
         Form::PngOfScale(scale) => area_m2 * (f64::from(*scale) / PX_M).powi(2),
     };
@@ -84,8 +85,9 @@ pub fn drawing_bytes(plan: &FigurePlan, threads: usize) -> u64 {
 /// The pictures of a figure: the ending of each, and how it is drawn.
 pub fn pictures(plan: &FigurePlan) -> Vec<(&'static str, Form)> {
     let of_format = |format: &Format| match (format, resolution(plan)) {
-        (Format::Svg, _) => vec![(".svg", Form::Svg)],
+        (Format::Svg, _) => vec![(".svg", Form::Svg(plan.svg_text))],
         (Format::Pdf, _) => vec![(".pdf", Form::Pdf)],
+        (Format::Eps, _) => vec![(".eps", Form::Eps)],
         (Format::Png, Some(dpi)) => vec![(".png", Form::PngOfDpi(dpi))],
         (Format::Png, None) => vec![
             (".png", Form::PngOfScale(1.0)),
@@ -103,7 +105,7 @@ mod tests {
         FigurePlan {
             width_m: Some(0.085),
             font_size_pt: Some(7.0),
-            formats: vec![Format::Png, Format::Pdf].into(),
+            formats: vec![Format::Png, Format::Pdf, Format::Eps].into(),
             dpi: Some(600),
             ..FigurePlan::default()
         }
@@ -132,7 +134,7 @@ mod tests {
         };
         let default = FigurePlan::default();
         assert_eq!(endings(&default), [".svg", ".png", "@2x.png"]);
-        assert_eq!(endings(&everything()), [".png", ".pdf"]);
+        assert_eq!(endings(&everything()), [".png", ".pdf", ".eps"]);
         assert_eq!(resolution(&everything()), Some(600));
         let column = FigurePlan {
             width_m: Some(0.085),

@@ -1,15 +1,21 @@
 //! The `[figures]` block of sweep and scenario files: how figures are to look.
 
+use std::path::Path;
+use std::sync::Arc;
+
+use super::data_file;
 use super::diagnostic::{Location, Problems};
-use super::document::block;
 use super::document::reader::TableReader;
+use super::document::{Located, block};
+#[cfg(feature = "report")]
+use crate::figures::font::{Font, FontBytes};
 use crate::figures::paper;
 use crate::quantity::block::{Block, Reported, Source};
-use crate::quantity::key::Key;
+use crate::quantity::key::{Key, alternatives};
 use crate::quantity::rows::{List, Others, Rows};
 use crate::quantity::setting::Value;
 use crate::quantity::{Dimension, FrequencyUnit, format_human};
-use crate::sweep::plan::figures::{AxisUnits, FigurePlan, Format};
+use crate::sweep::plan::figures::{AxisUnits, FigurePlan, FontChoice, Format};
 
 /// The keys of figures of a sweep, of which the first are of no use to a history.
 const KEYS: &[Key] = FigurePlan::KEYS;
@@ -112,15 +118,57 @@ fn checked(mut table: TableReader<'_>, plan: Option<FigurePlan>) -> Option<Figur
     let widths: Vec<(&Key, ())> = widths.map(|key| (key, ())).collect();
     let is_one = !widths.iter().all(|(key, ())| table.has(key)) || table.one_of(&widths).is_some();
     let [width, column, height] = ["width", "column", "height"].map(|key| table.value_place(key));
-    let [dpi, axes] = ["dpi", "axes"].map(|key| table.value_place(key));
+    let [dpi, axes, font] = ["dpi", "axes", "font"].map(|key| table.value_place(key));
+    let folder = table.folder();
     table.finish();
     let mut plan = plan.filter(|_| is_one)?;
+    if let (FontChoice::File { path, .. }, Some(location)) = (&plan.font, font) {
+        let file = Located {
+            value: path.clone(),
+            path: format!("{}.font", FigurePlan::NAME),
+            location,
+        };
+        plan.font = font_of_file(&file, folder, problems)?;
+    }
     // A resolved file has the width that it is.
     if let Some(column) = plan.column.take() {
         plan.width_m = Some(column.width_m());
     }
     let sides = [width.or(column), height];
     fits(&plan, &sides, dpi.as_ref(), problems).then_some(Figures { plan, axes })
+}
+
+/// The font of a file, whose path is kept from the root; `None` where a problem was reported.
+fn font_of_file(file: &Located<String>, folder: &Path, problems: &Problems) -> Option<FontChoice> {
+    let words: Vec<&str> = FontChoice::NAMED.iter().map(|(word, _)| *word).collect();
+    let help = format!(
+        "write {}, or the path of a .ttf or .otf file",
+        alternatives(&words).replace(" or ", ", ")
+    );
+    let ending = Path::new(&file.value).extension().unwrap_or_default();
+    if !["ttf", "otf"]
+        .iter()
+        .any(|known| ending.eq_ignore_ascii_case(known))
+    {
+        problems
+            .at(file, "there is no such typeface of figures")
+            .help(help);
+        return None;
+    }
+    let (name, bytes) = data_file::named(file, folder, problems)?;
+    let bytes = Arc::new(bytes);
+    #[cfg(feature = "report")]
+    if let Err(error) = Font::new(Arc::clone(&bytes) as FontBytes) {
+        let message = format!("figures cannot be set in `{name}`: {error}");
+        problems.at(file, message).help(help);
+        return None;
+    }
+    let Some(path) = file.absolute_from(folder) else {
+        let message = format!("the path of `{name}` is not UTF-8, and cannot be written down");
+        problems.at(file, message).help("rename the folder");
+        return None;
+    };
+    Some(FontChoice::File { path, bytes })
 }
 
 /// Whether a figure of this size has room for its text, and a PNG of it a sensible number of pixels.

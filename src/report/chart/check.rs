@@ -1,6 +1,6 @@
 //! What a chart must fulfil before it is drawn; nothing that cannot be drawn truly is drawn at all.
 
-use super::text::printable;
+use super::text::{plain, printable};
 use super::{AxisName, Chart, ChartError, Mark, Scale, Series};
 
 /// Refuses a chart with no point, with values no axis can show, or with text that XML cannot hold.
@@ -41,11 +41,11 @@ pub(super) fn empty(chart: &Chart) -> ChartError {
 
 /// What the chart shows, in words.
 pub(super) fn subject(chart: &Chart) -> String {
-    match (&chart.title, &chart.map) {
+    plain(&match (&chart.title, &chart.map) {
         (Some(title), _) => title.clone(),
         (None, Some(map)) => format!("{} over the surface", map.value_label),
         (None, None) => format!("{} against {}", chart.y.label, chart.x.label),
-    }
+    })
 }
 
 /// What a mark is called in an error.

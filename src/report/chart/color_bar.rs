@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use super::canvas::{Anchor, Canvas};
+use super::canvas::Canvas;
 use super::color_map::{self, LEVELS};
 use super::geometry::Rect;
 use super::heat_map::HeatMap;
 use super::layout::{crisp, tick_widths};
 use super::look::*;
 use super::scale::AxisMap;
-use super::text::{ASCENT_EM, CAPITAL_EM, DESCENT_EM, width_em};
+use super::text::{ASCENT_EM, Anchor, CAPITAL_EM, DESCENT_EM, width_em};
 use super::ticks::{self, Ticks};
 use super::{Chart, ChartError, Color, ColorScale, Scale, color_scale};
 use crate::report::number::largest;
@@ -67,8 +67,8 @@ impl Bar {
             label: label.clone(),
             scale,
             range,
-            widest_label: largest(tick_widths(&ticks)?),
-            label_em: width_em(label)?,
+            widest_label: largest(tick_widths(chart, &ticks)),
+            label_em: width_em(label, &chart.typeface),
             ticks,
         }))
     }

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::canvas::{Anchor, Canvas};
+use super::canvas::Canvas;
 use super::check::{check, subject};
 use super::color_bar::Bar;
 use super::curves::{Curve, ErrorBar, Obstacles, curves};
@@ -13,7 +13,7 @@ use super::legend::{Legend, Outside};
 use super::look::*;
 use super::place::{self, AIR, PlacedLabel};
 use super::stroke::dashes;
-use super::text::{CAPITAL_EM, DESCENT_EM};
+use super::text::{Anchor, CAPITAL_EM, DESCENT_EM};
 use super::{Chart, ChartError, Color, LegendPlace, LineStyle, Series, Size, heat_map, marker};
 
 /// Everything in its place.
@@ -57,7 +57,9 @@ pub fn stack(charts: &[Chart]) -> Result<Drawing, ChartError> {
     };
     let mut drawn = Vec::new();
     for chart in &charts {
-        drawn.push((size.height_px, shapes(chart, left)?));
+        let top = f64::from(size.height_px);
+        let shapes = shapes(chart, left)?.into_iter();
+        drawn.extend(shapes.filter_map(|shape| shape.moved_down(top)));
         size.height_px += chart.size.height_px;
     }
     let titles: Vec<String> = charts.iter().map(|chart| subject(chart)).collect();
@@ -67,14 +69,17 @@ pub fn stack(charts: &[Chart]) -> Result<Drawing, ChartError> {
         title: titles.join("; "),
         description: None,
         sweep_hash: None,
-        charts: drawn,
+        families: charts
+            .first()
+            .map_or_else(String::new, |chart| chart.typeface.families()),
+        shapes: drawn,
     })
 }
 
 /// The shapes of a chart whose frame begins no further left than `left`.
 fn shapes(chart: &Chart, left: f64) -> Result<Vec<Shape>, ChartError> {
     let arrangement = arrange_beside(chart, left)?;
-    let mut canvas = Canvas::new(chart.size);
+    let mut canvas = Canvas::new(chart);
     paint(chart, &arrangement, &mut canvas);
     canvas.finish()
 }
@@ -94,7 +99,7 @@ fn arrange_beside(chart: &Chart, left: f64) -> Result<Arrangement, ChartError> {
         right: reserve.right + of_bar,
         ..reserve
     };
-    let widths = Widths::measure(chart)?;
+    let widths = Widths::measure(chart);
     let ranges = ranges(chart)?;
     let plain = lay_out(chart, &ranges, &widths, beside(Reserve::default()))?;
     let inside = |layout: Layout, legend: Option<Legend>| {
@@ -589,16 +594,16 @@ mod tests {
         assert!(left(&narrow) < left(&wide));
         // The wide chart is the same in company as alone; the narrow one makes room.
         let both = [wide, narrow];
-        // What is drawn of one chart of a stack.
-        let paths = |charts: &[Chart], place: usize| {
-            let (_, shapes) = stack(charts).unwrap().charts.swap_remove(place);
-            shapes
-                .into_iter()
-                .map(|shape| shape.path)
-                .collect::<Vec<_>>()
+        // Where each shape of a stack begins.
+        let lefts = |charts: &[Chart]| {
+            let shapes = stack(charts).unwrap().shapes.into_iter();
+            let lefts = shapes.map(|shape| shape.path.bounds().left());
+            lefts.collect::<Vec<_>>()
         };
-        assert_eq!(paths(&both[..1], 0), paths(&both, 0));
-        assert_ne!(paths(&both[1..], 0), paths(&both, 1));
+        let (alone, stacked) = (lefts(&both[..1]), lefts(&both));
+        let (first, second) = stacked.split_at(alone.len());
+        assert_eq!(alone, first);
+        assert_ne!(lefts(&both[1..]), second);
         assert!(matches!(stack(&[]), Err(ChartError::EmptyStack)));
     }
 }

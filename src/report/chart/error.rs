@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use resvg::usvg;
+use crate::figures::font::FontError;
 
 /// Why a chart could not be drawn, and what to write instead.
 #[derive(Debug, thiserror::Error)]
@@ -31,8 +31,8 @@ pub enum ChartError {
         value: f64,
     },
 
-    #[error("cannot draw the chart: {reason}")]
-    Draw { reason: String },
+    #[error("cannot {step} the chart: {reason}; this is an error of the program")]
+    Internal { step: &'static str, reason: String },
 
     #[error("cannot lay out the {axis} axis from {low} to {high}: {reason}")]
     Range {
@@ -102,16 +102,20 @@ pub enum ChartError {
     },
 
     #[error("cannot turn the chart into pixels at scale {scale}: {reason}")]
-    PixelScale { scale: f32, reason: &'static str },
+    PixelScale { scale: f64, reason: &'static str },
 
-    #[error("cannot read the chart's SVG: {0}")]
-    Svg(#[from] usvg::Error),
+    #[error("cannot set the chart in the font of this file: {0}")]
+    Font(#[from] FontError),
+}
 
-    #[error("cannot encode the chart as PNG: {reason}")]
-    Encode { reason: String },
-
-    #[error("cannot make a PDF of the chart: {reason}")]
-    Pdf { reason: String },
+impl ChartError {
+    /// What none of those that draw a chart can cause.
+    pub(super) fn internal(step: &'static str, reason: impl ToString) -> Self {
+        Self::Internal {
+            step,
+            reason: reason.to_string(),
+        }
+    }
 }
 
 /// Which axis an error is about.

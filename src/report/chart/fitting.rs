@@ -14,7 +14,7 @@ pub fn fitting_height_px(chart: &Chart) -> Result<u32, ChartError> {
     /// More than any legend needs.
     const AMPLE_PX: u32 = 1000;
     check(chart)?;
-    let of_label = Widths::measure(chart)?.height_of_y_label_px().ceil() as u32;
+    let of_label = Widths::measure(chart).height_of_y_label_px().ceil() as u32;
     let high = chart.size.height_px.max(of_label);
     let arranged = |high: u32| arrange(&chart.clone().size(chart.size.width_px, high));
     let arrangement = arranged(high).or_else(|error| match error {
@@ -76,7 +76,7 @@ mod tests {
         let legend = arrangement.legend.unwrap().rect;
         assert!(legend.bottom <= arrangement.layout.frame.top);
         // The label of y begins below the legend.
-        let length = Widths::measure(&chart).unwrap().height_of_y_label_px() - 2.0 * MARGIN;
+        let length = Widths::measure(&chart).height_of_y_label_px() - 2.0 * MARGIN;
         assert!(
             label.at.1 - length / 2.0 >= legend.bottom,
             "{:?} {legend:?}",

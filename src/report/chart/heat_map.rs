@@ -14,7 +14,7 @@ use super::color_bar::Bar;
 use super::color_map::{LEVELS, color, level};
 use super::contour;
 use super::draw::arrange;
-use super::drawing::{FINE, Paint};
+use super::drawing::Paint;
 use super::geometry::{Point, Rect};
 use super::layout::Layout;
 use super::look::*;
@@ -234,7 +234,7 @@ fn contours(map: &HeatMap, bar: &Bar, layout: &Layout, canvas: &mut Canvas) {
     for tick in &bar.ticks.major {
         let paint = Paint::Stroke {
             color: contrast(map.level(tick.value, bar.range)).rgb(),
-            width: MARK_STROKE * FINE,
+            width: MARK_STROKE,
             round_ends: true,
         };
         let segments = contour::segments(&values, map.columns, scaled(tick.value));
@@ -287,9 +287,9 @@ fn block_mean(map: &HeatMap, block: usize, column: usize, row: usize) -> Option<
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::chart::Axis;
     use crate::report::chart::draw::Arrangement;
     use crate::report::chart::drawing::Shape;
-    use crate::report::chart::{Axis, Size};
 
     fn dome(columns: usize, rows: usize) -> HeatMap {
         let at = |i: usize, n: usize| 2.0 * (i as f64 + 0.5) / n as f64 - 1.0;
@@ -324,7 +324,7 @@ mod tests {
     /// The colours of the shapes that one of the functions of this file draws.
     fn painted(chart: &Chart, draw: impl Fn(&Bar, &Layout, &mut Canvas)) -> Vec<String> {
         let Arrangement { layout, bar, .. } = laid_out(chart);
-        let mut canvas = Canvas::new(Size::default());
+        let mut canvas = Canvas::new(chart);
         draw(&bar.unwrap(), &layout, &mut canvas);
         let color = |shape: &Shape| match shape.paint {
             Paint::Fill { color, .. } | Paint::Stroke { color, .. } => color,
@@ -384,10 +384,10 @@ mod tests {
         chart.y.range = chart.x.range;
         assert_eq!(painted(&chart, turned), ["#440154", "#fde725", "#ffffff"]);
         let Arrangement { layout, bar, .. } = laid_out(&chart);
-        let mut canvas = Canvas::new(Size::default());
+        let mut canvas = Canvas::new(&chart);
         discs(&map, &bar.unwrap(), &layout, &mut canvas);
         let outermost = canvas.finish().unwrap()[0].path.bounds().width();
-        let expected = 0.8 * layout.frame.width() * FINE;
+        let expected = 0.8 * layout.frame.width();
         // Single precision.
         assert!((f64::from(outermost) - expected).abs() < 1e-2);
         assert!(chart.draw().is_ok());

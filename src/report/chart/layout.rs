@@ -1,11 +1,10 @@
 //! Where frame, ticks and labels go, from the measured sizes of all text.
 
-use super::canvas::Anchor;
 use super::check::{empty, mark_name};
 use super::geometry::{Point, Rect};
 use super::look::*;
 use super::scale::{AxisMap, Room, range};
-use super::text::{ASCENT_EM, DESCENT_EM, fitted_px, width_em};
+use super::text::{ASCENT_EM, Anchor, DESCENT_EM, fitted_px, width_em};
 use super::ticks::{self, Tick, Ticks};
 use super::{AxisName, Chart, ChartError, Mark, MarkPlace, Scale, Series};
 use crate::report::number;
@@ -78,21 +77,17 @@ pub(super) struct Widths {
 }
 
 impl Widths {
-    pub(super) fn measure(chart: &Chart) -> Result<Self, ChartError> {
-        let of = |text: Option<&str>| width_em(text.unwrap_or(""));
+    pub(super) fn measure(chart: &Chart) -> Self {
+        let of = |text: Option<&str>| width_em(text.unwrap_or(""), &chart.typeface);
         let series = chart.series.iter();
         let marks = chart.marks.iter();
-        Ok(Self {
-            title: of(chart.title.as_deref())?,
-            x_label: width_em(&chart.x.label)?,
-            y_label: width_em(&chart.y.label)?,
-            series: series
-                .map(|s| of(s.label.as_deref()))
-                .collect::<Result<_, _>>()?,
-            marks: marks
-                .map(|m| width_em(&m.label))
-                .collect::<Result<_, _>>()?,
-        })
+        Self {
+            title: of(chart.title.as_deref()),
+            x_label: of(Some(&chart.x.label)),
+            y_label: of(Some(&chart.y.label)),
+            series: series.map(|s| of(s.label.as_deref())).collect(),
+            marks: marks.map(|m| of(Some(&m.label))).collect(),
+        }
     }
 
     /// The height (px) of a picture in which the label of y has its full size.
@@ -110,7 +105,7 @@ pub(super) struct Ranges {
 
 /// The least frame that is still a chart, in px.
 const LEAST_FRAME: f64 = 60.0;
-/// No canvas is larger than this, so that sixteenths of a px stay whole numbers of 32 bits with room to spare.
+/// No canvas is larger than this, so that the units of plotters stay whole numbers of 32 bits with room to spare.
 const LARGEST: u32 = 32_768;
 
 /// Lays the chart out with `reserve` kept free for a legend.
@@ -134,7 +129,7 @@ pub(super) fn lay_out(
 
     let y = AxisMap::new(chart.y.scale, ranges.y, (bottom, top));
     let y_ticks = ticks::choose(y.scale, y.low, y.high, |ticks| room_for_heights(&y, ticks));
-    let widest = tick_widths(&y_ticks)?.into_iter().fold(0.0, f64::max);
+    let widest = tick_widths(chart, &y_ticks).into_iter().fold(0.0, f64::max);
     let beside_frame =
         MARGIN + LABEL_TEXT * (ASCENT_EM + DESCENT_EM) + LABEL_GAP + widest + TICK_GAP + MAJOR_TICK;
     let left = crisp(beside_frame.max(reserve.left));
@@ -143,7 +138,9 @@ pub(super) fn lay_out(
     checked_size(chart, right - left)?;
     let mut x = AxisMap::new(chart.x.scale, ranges.x, (left, right));
     let x_ticks = ticks::choose(x.scale, x.low, x.high, |ticks| room_for_widths(&x, ticks));
-    if let (Some(last), Some(label_width)) = (x_ticks.major.last(), tick_widths(&x_ticks)?.last()) {
+    if let (Some(last), Some(label_width)) =
+        (x_ticks.major.last(), tick_widths(chart, &x_ticks).last())
+    {
         // The last label is centred on its tick and may reach beyond the frame.
         let over = x.px(last.value) + label_width / 2.0 - (width - reserve.right - 0.5 * MARGIN);
         right = crisp(right - over.max(0.0));
@@ -190,8 +187,8 @@ fn checked_size(chart: &Chart, frame_length: f64) -> Result<(), ChartError> {
 }
 
 /// The widths (px) of the labels.
-pub(super) fn tick_widths(ticks: &Ticks) -> Result<Vec<f64>, ChartError> {
-    let width = |tick: &Tick| Ok(width_em(&tick.label)? * TICK_TEXT);
+pub(super) fn tick_widths(chart: &Chart, ticks: &Ticks) -> Vec<f64> {
+    let width = |tick: &Tick| width_em(&tick.label, &chart.typeface) * TICK_TEXT;
     ticks.major.iter().map(width).collect()
 }
 

@@ -2,10 +2,12 @@
 //!
 //! A figure says what is to be seen; where the ticks, the legend and the labels go is decided here. The caller passes
 //! data already scaled to the unit named in the axis label. [`Chart::draw`] gives the finished picture as a [`Drawing`], which
-//! writes itself as SVG whose text is outlines (it needs no font), in pixels, as a page of a PDF or as an element of HTML.
+//! writes itself as SVG, in pixels, as a page of a PDF, as EPS or as an element of HTML.
+//!
+//! Labels are text in which an underscore sets a subscript: `a_T`, `E_{inst}`; [`literal`] keeps a name as it is.
 //!
 //! Plotters draws lines, polygons and circles. Layout, ticks, legend and texts are our own, because its coordinates are whole numbers
-//! (so it draws sixteen times as large), because it moves what lies outside to the edge in place of cutting it there (so lines are cut
+//! (so it draws in parts of a px), because it moves what lies outside to the edge in place of cutting it there (so lines are cut
 //! to the frame before), and because it guesses the width of a text from its bytes (so texts are measured as they are set).
 //!
 //! ```
@@ -24,6 +26,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::figures::font::Typeface;
+
 mod canvas;
 mod check;
 mod color_bar;
@@ -33,9 +37,11 @@ mod contour;
 mod curves;
 mod draw;
 mod drawing;
+mod eps;
 mod error;
 mod fitting;
 mod geometry;
+mod grey;
 mod heat_map;
 mod layout;
 mod legend;
@@ -44,10 +50,11 @@ mod marker;
 mod palette;
 mod pdf;
 mod place;
-mod render;
+mod png;
 mod scale;
 mod shared;
 mod stroke;
+mod svg;
 mod text;
 mod ticks;
 
@@ -58,6 +65,7 @@ pub use error::{AxisName, ChartError};
 pub use fitting::{fits, fitting_height_px};
 pub use heat_map::{HeatMap, MapShape};
 pub use palette::Color;
+pub use text::{literal, plain};
 
 /// A chart: what is drawn against which axes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -80,6 +88,9 @@ pub struct Chart {
     /// `None`: no legend. A legend lists the series that have a label.
     pub legend: Option<LegendPlace>,
     pub size: Size,
+    /// What its texts are set in; kept figures are drawn in the one asked for.
+    #[serde(skip)]
+    pub typeface: Typeface,
 }
 
 impl Chart {
@@ -95,6 +106,7 @@ impl Chart {
             marks: Vec::new(),
             legend: Some(LegendPlace::Auto),
             size: Size::default(),
+            typeface: Typeface::default(),
         }
     }
 

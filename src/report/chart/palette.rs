@@ -50,6 +50,13 @@ impl Color {
         }
     }
 
+    /// The grey that is as light in a print in black and white.
+    pub fn in_grey(self) -> Self {
+        let [red, green, blue] = self.rgb().map(f64::from);
+        let luma = (0.299 * red + 0.587 * green + 0.114 * blue).round() as u8;
+        Self::Rgb(luma, luma, luma)
+    }
+
     /// Red, green, blue.
     pub fn rgb(self) -> [u8; 3] {
         match self {

@@ -1,7 +1,8 @@
 //! The picture as PDF: one page of the size that the picture has on paper, lines as lines, and text as text that can be searched
 //! and copied. krilla writes the PDF, and embeds of the font what is used.
 
-use std::sync::OnceLock;
+use std::collections::HashMap;
+use std::sync::Arc;
 
 use krilla::Document;
 use krilla::color::{Color, luma, rgb};
@@ -12,19 +13,15 @@ use krilla::page::PageSettings;
 use krilla::paint::{Fill, LineCap, LineJoin, Stroke};
 use krilla::surface::Surface;
 use krilla::text::{Font, GlyphId, KrillaGlyph};
-use resvg::tiny_skia::{Path, PathSegment};
-use resvg::usvg;
+use tiny_skia::{Path, PathSegment};
 
 use super::ChartError;
-use super::drawing::{Drawing, FINE, PROGRAM, Paint, Shape};
-use super::text::FONT;
+use super::drawing::{Drawing, POINTS_PER_MM, Paint, Shape, Text};
+use super::text::Run;
 
-/// PDF counts in points, 72 to an inch, SVG in px, 96 to an inch.
-const POINTS_PER_PX: f64 = 0.75;
-const POINTS_PER_MM: f64 = 72.0 / 25.4;
-/// A shape with crisp edges, such as a cell of a map, is drawn so much wider (sixteenths of a px): viewers soften every edge, and
-/// between two boxes that only touch the paper would shine through.
-const SEAM: f32 = 8.0;
+/// A shape with crisp edges, such as a cell of a map, is drawn so much wider (px): viewers soften every edge, and between two boxes that
+/// only touch the paper would shine through.
+const SEAM: f32 = 0.5;
 /// What opens the last lines of every PDF.
 const PDF_END: &[u8] = b"startxref";
 
@@ -35,35 +32,19 @@ impl Drawing {
     /// # Errors
     /// [`ChartError::Pdf`] where krilla refuses it.
     pub fn to_pdf(&self) -> Result<Vec<u8>, ChartError> {
-        let (width_px, height_px) = (self.size.width_px, self.size.height_px);
-        let (width, height, points_per_px) = match &self.paper {
-            None => (
-                f64::from(width_px) * POINTS_PER_PX,
-                f64::from(height_px) * POINTS_PER_PX,
-                POINTS_PER_PX,
-            ),
-            Some(paper) => (
-                paper.width_mm * POINTS_PER_MM,
-                paper.height_mm * POINTS_PER_MM,
-                paper.px_mm * POINTS_PER_MM,
-            ),
-        };
-        let page = PageSettings::from_wh(width as f32, height as f32)
+        let extent = self.extent();
+        let points = |mm: f64| (mm * POINTS_PER_MM) as f32;
+        let page = PageSettings::from_wh(points(extent.width_mm), points(extent.height_mm))
             .ok_or_else(|| failed("the picture has no size"))?;
         let mut document = Document::new();
         let mut sheet = document.start_page_with(page);
         let mut surface = sheet.surface();
-        let scale = (points_per_px / FINE) as f32;
-        let drawn = self.charts.iter().try_for_each(|(top_px, shapes)| {
-            let top = f64::from(*top_px) * points_per_px;
-            let placed = Transform::from_row(scale, 0.0, 0.0, scale, 0.0, top as f32);
-            surface.push_transform(&placed);
-            let drawn = shapes
-                .iter()
-                .try_for_each(|shape| draw(shape, &mut surface));
-            surface.pop();
-            drawn
-        });
+        let mut fonts = Fonts::default();
+        let scale = points(extent.px_mm);
+        surface.push_transform(&Transform::from_scale(scale, scale));
+        let mut shapes = self.shapes.iter();
+        let drawn = shapes.try_for_each(|shape| draw(shape, &mut fonts, &mut surface));
+        surface.pop();
         surface.finish();
         sheet.finish();
         drawn?;
@@ -79,8 +60,8 @@ impl Drawing {
     /// The comment goes behind the trailer, where no offset of the file counts past it.
     fn stamp_pdf(&self, mut bytes: Vec<u8>) -> Vec<u8> {
         let end = bytes.windows(PDF_END.len()).rposition(|w| w == PDF_END);
-        if let (Some(hash), Some(end)) = (&self.sweep_hash, end) {
-            let comment = format!("% {PROGRAM}, sweep sha256 {hash}\n");
+        if let (Some(stamp), Some(end)) = (self.stamp(), end) {
+            let comment = format!("% {stamp}\n");
             bytes.splice(end..end, comment.into_bytes());
         }
         bytes
@@ -88,12 +69,13 @@ impl Drawing {
 }
 
 fn failed(reason: impl ToString) -> ChartError {
-    ChartError::Pdf {
-        reason: reason.to_string(),
-    }
+    ChartError::internal("write the PDF of", reason)
 }
 
-fn draw(shape: &Shape, surface: &mut Surface<'_>) -> Result<(), ChartError> {
+/// The fonts that were used, by the place of their bytes.
+type Fonts = HashMap<*const u8, Font>;
+
+fn draw(shape: &Shape, fonts: &mut Fonts, surface: &mut Surface<'_>) -> Result<(), ChartError> {
     let (fill, stroke) = match shape.paint {
         Paint::Fill {
             color,
@@ -131,7 +113,7 @@ fn draw(shape: &Shape, surface: &mut Surface<'_>) -> Result<(), ChartError> {
         }
     };
     if let (Some(text), Some(fill)) = (&shape.text, &fill) {
-        return lines_of_text(text, shape.turned(), fill, surface);
+        return draw_text(text, fill, fonts, surface);
     }
     surface.set_fill(fill);
     surface.set_stroke(stroke);
@@ -163,72 +145,53 @@ fn copied(path: &Path) -> Option<krilla::geom::Path> {
     builder.finish()
 }
 
-/// Every run of text as one line of glyphs, each where usvg put it.
-fn lines_of_text(
-    text: &usvg::Text,
-    turned: usvg::Transform,
+/// Every run of text as one line of glyphs, each in its place.
+fn draw_text(
+    text: &Text,
     fill: &Fill,
+    fonts: &mut Fonts,
     surface: &mut Surface<'_>,
 ) -> Result<(), ChartError> {
-    let font = font()?;
-    for span in text.layouted().iter().filter(|span| span.visible) {
-        let size = span.font_size.get();
-        // Without the scale from units of the font, which the size stands for.
-        let to_size =
-            usvg::Transform::from_scale(font.units_per_em() / size, font.units_per_em() / size);
-        let placed: Vec<usvg::Transform> = span
-            .positioned_glyphs
-            .iter()
-            .map(|glyph| glyph.transform().pre_concat(to_size))
-            .collect();
-        let Some((first, back)) = placed
-            .first()
-            .and_then(|first| Some((*first, first.invert()?)))
-        else {
+    let t = text.placed;
+    surface.push_transform(&Transform::from_row(t.sx, t.ky, t.kx, t.sy, t.tx, t.ty));
+    surface.set_fill(Some(fill.clone()));
+    surface.set_stroke(None);
+    for run in &text.line.runs {
+        let font = font(run, fonts)?;
+        let Some(first) = run.glyphs.first() else {
             continue;
         };
-        // Along the line and below it, in units of the size.
-        let places: Vec<(f32, f32)> = placed
+        let next = run.glyphs.iter().skip(1).map(|glyph| glyph.x_em);
+        // Behind the last glyph comes none.
+        let next = next.chain(run.glyphs.last().map(|glyph| glyph.x_em));
+        let glyphs: Vec<KrillaGlyph> = run
+            .glyphs
             .iter()
-            .map(|at| back.pre_concat(*at))
-            .map(|at| (at.tx / size, at.ty / size))
+            .zip(next)
+            .map(|(glyph, next)| {
+                let advance = (next - glyph.x_em) / run.size_em;
+                let above = (first.y_em - glyph.y_em) / run.size_em;
+                let id = GlyphId::new(glyph.id);
+                KrillaGlyph::new(id, advance, 0.0, above, 0.0, glyph.range.clone(), None)
+            })
             .collect();
-        let (mut letters, mut glyphs) = (String::new(), Vec::new());
-        for (k, glyph) in span.positioned_glyphs.iter().enumerate() {
-            let from = letters.len();
-            letters.push_str(&glyph.text);
-            let (x, y) = places.get(k).copied().unwrap_or_default();
-            let next = places.get(k + 1).map_or(x, |next| next.0);
-            let id = GlyphId::new(glyph.id.0);
-            let range = from..letters.len();
-            glyphs.push(KrillaGlyph::new(id, next - x, 0.0, -y, 0.0, range, None));
-        }
-        surface.push_transform(&transform(turned.pre_concat(first)));
-        surface.set_fill(Some(fill.clone()));
-        surface.set_stroke(None);
-        surface.draw_glyphs(
-            Point::from_xy(0.0, 0.0),
-            &glyphs,
-            font.clone(),
-            &letters,
-            size,
-            false,
-        );
-        surface.pop();
+        let at = Point::from_xy(first.x_em, first.y_em);
+        surface.draw_glyphs(at, &glyphs, font, &run.text, run.size_em, false);
     }
+    surface.pop();
     Ok(())
 }
 
-/// The embedded font, the only one that texts are laid out in.
-fn font() -> Result<&'static Font, ChartError> {
-    static READ: OnceLock<Option<Font>> = OnceLock::new();
-    let read = READ.get_or_init(|| Font::new(FONT.into(), 0));
-    read.as_ref()
-        .ok_or_else(|| failed("its font cannot be read"))
-}
-
-fn transform(t: usvg::Transform) -> Transform {
-    Transform::from_row(t.sx, t.ky, t.kx, t.sy, t.tx, t.ty)
+/// The font of a run, read once for a document.
+fn font(run: &Run, fonts: &mut Fonts) -> Result<Font, ChartError> {
+    let bytes = Arc::clone(&run.font.bytes);
+    let place = (*bytes).as_ref().as_ptr();
+    if let Some(font) = fonts.get(&place) {
+        return Ok(font.clone());
+    }
+    let font = Font::new(bytes.into(), 0).ok_or_else(|| failed("its font cannot be read"))?;
+    fonts.insert(place, font.clone());
+    Ok(font)
 }
 
 #[cfg(test)]

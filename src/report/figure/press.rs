@@ -6,12 +6,13 @@ use std::sync::{Mutex, PoisonError};
 use rayon::prelude::*;
 
 use super::{Figure, Picture};
+use crate::figures::font::Typeface;
 use crate::figures::paper::{self, Form, PaperSize};
 use crate::report::ReportError;
 use crate::report::caption::Setting;
 use crate::report::chart::{self, Chart, ChartError, Color, Drawing, LegendPlace, LineStyle};
 use crate::report::page::Pictures;
-use crate::sweep::plan::figures::FigurePlan;
+use crate::sweep::plan::figures::{Colors, FigurePlan, SvgText};
 use crate::sweep::store::StoreError;
 use crate::sweep::store::files;
 
@@ -108,7 +109,7 @@ impl Press<'_> {
             name: figure.to_owned(),
             source,
         };
-        let drawing = picture.as_asked(self.plan).map_err(failed)?;
+        let drawing = picture.as_asked(self.plan, caption).map_err(failed)?;
         let drawing = drawing
             .described(caption)
             .stamped(self.pictures.sweep_hash());
@@ -117,8 +118,10 @@ impl Press<'_> {
         (self.write)(&name, format!("{caption}\n").as_bytes())?;
         forms.par_iter().try_for_each(|(ending, form)| {
             let bytes = match *form {
-                Form::Svg => Ok(drawing.to_svg().into_bytes()),
+                Form::Svg(SvgText::Outlines) => Ok(drawing.to_svg().into_bytes()),
+                Form::Svg(SvgText::Text) => Ok(drawing.to_svg_with_text().into_bytes()),
                 Form::Pdf => drawing.to_pdf(),
+                Form::Eps => Ok(drawing.to_eps().into_bytes()),
                 Form::PngOfDpi(dpi) => drawing.to_png_at(dpi),
                 Form::PngOfScale(scale) => drawing.to_png(scale),
             };
@@ -131,17 +134,46 @@ impl Press<'_> {
 }
 
 impl Picture {
-    /// The picture in the size asked for, with its title or without.
+    /// The picture in the size, typeface and colours asked for, with its title or without.
     ///
     /// # Errors
     /// As [`Chart::draw`].
-    pub fn as_asked(&self, plan: &FigurePlan) -> Result<Drawing, ChartError> {
+    pub fn as_asked(&self, plan: &FigurePlan, caption: &str) -> Result<Drawing, ChartError> {
         let mut picture = self.clone();
-        if !plan.titles {
-            for chart in &mut picture.0 {
-                chart.title = None;
+        picture.entitle(plan.titles, caption);
+        let typeface = Typeface::of(&plan.font)?;
+        for chart in &mut picture.0 {
+            chart.typeface = typeface.clone();
+        }
+        if plan.colors == Colors::Color {
+            return picture.sized(plan);
+        }
+        let charts = std::mem::take(&mut picture.0).into_iter();
+        picture.0 = charts.map(Chart::in_grey).collect();
+        Ok(picture.sized(plan)?.in_grey())
+    }
+
+    /// Puts what a figure shows, as its caption begins, above its frame, or takes away what stands there; where neither is asked for, a
+    /// chart says which curve it shows.
+    fn entitle(&mut self, titles: Option<bool>, caption: &str) {
+        match titles {
+            None => {}
+            Some(false) => self.0.iter_mut().for_each(|chart| chart.title = None),
+            Some(true) => {
+                let subject = chart::literal(subject_of(caption));
+                if let Some(first) = self.0.first_mut().filter(|_| !subject.is_empty()) {
+                    first.title = Some(match &first.title {
+                        None => subject,
+                        Some(which) => format!("{subject}: {which}"),
+                    });
+                }
             }
         }
+    }
+
+    /// The picture in the size asked for.
+    fn sized(mut self, plan: &FigurePlan) -> Result<Drawing, ChartError> {
+        let picture = &mut self;
         let Some(paper) = paper::paper_size(plan) else {
             return picture.draw();
         };
@@ -216,6 +248,14 @@ impl Picture {
             }
         }
     }
+}
+
+/// What a caption says a figure shows: its words to the first colon, comma or full stop.
+fn subject_of(caption: &str) -> &str {
+    let ends = [": ", ", ", ". "].into_iter();
+    let end = ends.filter_map(|end| caption.find(end)).min();
+    let subject = end.and_then(|end| caption.get(..end));
+    subject.unwrap_or(caption).trim_end_matches('.')
 }
 
 /// The chart so wide, its height in this ratio to what it was.
@@ -293,6 +333,33 @@ mod tests {
         assert_eq!(resized(high, Some(0.04)), (true, 400, 200));
         // Too low for labels: as high as it needs.
         assert_eq!(resized(high, Some(0.01)), (false, 400, 300));
+    }
+
+    #[test]
+    fn a_title_is_what_the_caption_begins_with_and_the_curve_that_is_shown() {
+        let title = |titles, caption: &str| {
+            let mut stack = Picture(vec![chart(), chart().title("b")]);
+            stack.entitle(titles, caption);
+            let titles = stack.0.into_iter().map(|chart| chart.title);
+            titles.map(Option::unwrap_or_default).collect::<Vec<_>>()
+        };
+        let caption = "Hysteresis loops of my_body: load W over approach δ: rigid sphere.";
+        assert_eq!(title(None, caption), ["title", "b"]);
+        assert_eq!(title(Some(false), caption), ["", ""]);
+        // The name in it has no subscript.
+        let subject = "Hysteresis loops of my\\_body: title";
+        assert_eq!(title(Some(true), caption), [subject, "b"]);
+        assert_eq!(title(Some(true), ""), ["title", "b"]);
+        for (caption, expected) in [
+            (
+                "Energy loss per cycle, by branch: sphere.",
+                "Energy loss per cycle",
+            ),
+            ("Loss at 0.5 Hz. More.", "Loss at 0.5 Hz"),
+            ("Moduli.", "Moduli"),
+        ] {
+            assert_eq!(subject_of(caption), expected);
+        }
     }
 
     #[test]

@@ -3,12 +3,13 @@
 
 use std::borrow::Cow;
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
 use crate::quantity::Dimension::{AngularFrequency, Length};
 use crate::quantity::FrequencyUnit;
-use crate::quantity::block::Block as _;
+use crate::quantity::block::{Block as _, Field};
 use crate::quantity::key::{Entries, Kind, Limits, Number, number, quantity};
-use crate::quantity::setting::{Setting, Table};
+use crate::quantity::setting::{Setting, Table, Value};
 use crate::{block_with_defaults, words};
 
 /// Sides, text and resolutions beyond these are a slip of the pen rather than a wish.
@@ -22,7 +23,7 @@ const FORMATS: Entries = Entries {
     repeats: false,
     ..Entries::of(
         1..=Format::WORDS.len(),
-        "write at least one of \"svg\", \"png\" and \"pdf\", or leave it out",
+        "write at least one of \"svg\", \"png\", \"pdf\" and \"eps\", or leave it out",
     )
 };
 /// More loops than this cannot be told apart.
@@ -44,14 +45,21 @@ block_with_defaults! {
         height_m: Option<f64> = None => "height", Kind::Number(SIDE);
         /// Size (pt) of ticks and legends; titles of axes are an eighth larger.
         font_size_pt: Option<f64> = None => "font_size", Kind::Number(number("8").within(FONT_SIZE));
-        /// File formats; left out: SVG and PNG. PDFs contain text as text, for LaTeX.
+        /// Typeface: `"dejavu"` (DejaVu Sans), `"sans"` (the widths of Arial), `"serif"` (the widths of Times), or the path of a .ttf or .otf
+        /// file; letters that it lacks are those of DejaVu Sans. Left out: `"dejavu"`.
+        font: FontChoice = FontChoice::Dejavu => "font", Kind::Text, chosen;
+        /// Greys in place of colours, with line styles and markers that tell curves apart.
+        colors: Colors = Colors::Color => "colors", Kind::Word(Colors::WORDS);
+        /// File formats; left out: SVG and PNG. PDFs contain text as text, for LaTeX; an EPS has outlines of letters, and no transparency.
         formats: Cow<'static, [Format]> = Cow::Borrowed(&[Format::Svg, Format::Png]) => "formats", Kind::Words(Format::WORDS, FORMATS), chosen;
+        /// Letters of an SVG: outlines, which look the same everywhere, or text, which can be edited and needs the typeface where it is shown.
+        svg_text: SvgText = SvgText::Outlines => "svg_text", Kind::Word(SvgText::WORDS);
         /// Pixels of a PNG per inch on paper; left out: 300 if a size is given, otherwise one and two pixels per px of the drawing.
         dpi: Option<usize> = None => "dpi", Kind::Integer(DPI);
         /// SI units, or units of the elastic contact.
         axes: AxisUnits = AxisUnits::Si => "axes", Kind::Word(AxisUnits::WORDS), chosen;
-        /// Whether figures have titles above the frame; left out: yes.
-        titles: bool = true => "titles", Kind::Flag, chosen;
+        /// `true`: what a figure shows stands above its frame; `false`: nothing does; left out: which curve it shows, where there are others.
+        titles: Option<bool> = None => "titles", Kind::Flag;
     }
 }
 
@@ -80,6 +88,71 @@ words! {
         Png = "png",
         /// Of the same size as the SVG; its text is text.
         Pdf = "pdf",
+        /// Of the same size too; its text is outlines.
+        Eps = "eps",
+    }
+}
+
+words! {
+    /// What curves, areas and maps are drawn in.
+    pub enum Colors {
+        Color = "color",
+        /// For a print in black and white.
+        Grey = "grey",
+    }
+}
+
+words! {
+    /// What the letters of an SVG are.
+    pub enum SvgText {
+        Outlines = "outlines",
+        Text = "text",
+    }
+}
+
+/// What the texts of figures are set in.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FontChoice {
+    Dejavu,
+    Sans,
+    Serif,
+    /// The font of a file. The bytes are those that were read; a plan that was only parsed has none.
+    File {
+        path: String,
+        bytes: Arc<Vec<u8>>,
+    },
+}
+
+impl FontChoice {
+    /// Those without a file, as files name them.
+    pub const NAMED: [(&'static str, Self); 3] = [
+        ("dejavu", Self::Dejavu),
+        ("sans", Self::Sans),
+        ("serif", Self::Serif),
+    ];
+}
+
+impl Field for FontChoice {
+    fn written(&self, _: &Kind) -> Option<Value> {
+        Some(match self {
+            Self::File { path, .. } => path.clone().into(),
+            named => {
+                let mut all = Self::NAMED.into_iter();
+                all.find(|(_, choice)| choice == named)?.0.into()
+            }
+        })
+    }
+
+    fn of(value: Value) -> Option<Self> {
+        let text = String::of(value)?;
+        let named = Self::NAMED.into_iter().find(|(word, _)| *word == text);
+        Some(match named {
+            Some((_, choice)) => choice,
+            None => Self::File {
+                path: text,
+                bytes: Arc::default(),
+            },
+        })
     }
 }
 
@@ -115,9 +188,12 @@ mod tests {
             font_size_pt: Some(7.0),
             formats: Cow::Borrowed(&[Format::Png, Format::Pdf]),
             dpi: Some(600),
+            font: FontChoice::Serif,
+            colors: Colors::Grey,
+            svg_text: SvgText::Text,
             axes: AxisUnits::Normalised,
             frequency_unit: FrequencyUnit::Hz,
-            titles: false,
+            titles: Some(false),
         }
     }
 
@@ -129,7 +205,7 @@ mod tests {
         assert_eq!(
             &whole[sweep.len()..],
             "\n[figures]\nloops = [\"0.001 rad/s\", \"0.1 rad/s\"]\nfrequency_unit = \"Hz\"\nwidth = \"0.085 m\"\nheight = \"0.06 m\"\nfont_size = 7.0\n\
-             formats = [\"png\", \"pdf\"]\ndpi = 600\naxes = \"normalised\"\ntitles = false\n"
+             font = \"serif\"\ncolors = \"grey\"\nformats = [\"png\", \"pdf\"]\nsvg_text = \"text\"\ndpi = 600\naxes = \"normalised\"\ntitles = false\n"
         );
     }
 }

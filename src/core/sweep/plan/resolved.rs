@@ -195,7 +195,7 @@ mod tests {
         let sweep = "title = \"a\"\n\n[solver]\ncells = 3\n";
         let figures = FigurePlan {
             width_m: Some(0.085),
-            titles: false,
+            titles: Some(false),
             ..FigurePlan::default()
         };
         let whole = format!("{sweep}\n{}", figures.text());

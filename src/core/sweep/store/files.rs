@@ -80,7 +80,7 @@ fn is_of_array(name: &str) -> bool {
 }
 
 /// The endings of a picture in every form.
-pub const PICTURES: [&str; 4] = [".svg", ".pdf", ".png", "@2x.png"];
+pub const PICTURES: [&str; 5] = [".svg", ".pdf", ".eps", ".png", "@2x.png"];
 /// The ending of a caption.
 pub const CAPTION: &str = ".caption.txt";
 
