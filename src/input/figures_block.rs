@@ -140,11 +140,8 @@ fn checked(mut table: TableReader<'_>, plan: Option<FigurePlan>) -> Option<Figur
 
 /// The font of a file, whose path is kept from the root; `None` where a problem was reported.
 fn font_of_file(file: &Located<String>, folder: &Path, problems: &Problems) -> Option<FontChoice> {
-    let words: Vec<&str> = FontChoice::NAMED.iter().map(|(word, _)| *word).collect();
-    let help = format!(
-        "write {}, or the path of a .ttf or .otf file",
-        alternatives(&words).replace(" or ", ", ")
-    );
+    let words = alternatives(&FontChoice::WORDS);
+    let help = format!("write {words}, or the path of a .ttf or .otf file");
     let ending = Path::new(&file.value).extension().unwrap_or_default();
     if !["ttf", "otf"]
         .iter()
@@ -152,7 +149,7 @@ fn font_of_file(file: &Located<String>, folder: &Path, problems: &Problems) -> O
     {
         problems
             .at(file, "there is no such typeface of figures")
-            .help(help);
+            .help(&*help);
         return None;
     }
     let (name, bytes) = data_file::named(file, folder, problems)?;

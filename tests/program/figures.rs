@@ -90,6 +90,10 @@ fn only_the_formats_asked_for_are_there_even_after_others_were() {
     assert_eq!(pixels(&place.bytes("out/loops.png")), (1250, 938));
 }
 
+fn page_of(place: &Place, name: &str) -> (Vec<f64>, usize, String) {
+    page(&place.bytes(name))
+}
+
 /// The first page of a PDF (width and height in points), how many pages there are, and what the file says of itself.
 fn page(pdf: &[u8]) -> (Vec<f64>, usize, String) {
     let text = String::from_utf8_lossy(pdf).into_owned();
@@ -135,7 +139,10 @@ fn pdf_has_the_millimetres_asked_for_text_as_text_and_the_same_bytes_on_any_numb
 #[test]
 fn a_table_that_asks_for_nothing_changes_no_byte() {
     let plain = swept("");
-    let defaults = swept("[figures]\nformats = [\"svg\", \"png\"]\naxes = \"si\"\ntitles = true\n");
+    let defaults = swept(
+        "[figures]\nformats = [\"svg\", \"png\"]\naxes = \"si\"\nfont = \"dejavu\"\ncolors = \"color\"\n\
+                          svg_text = \"outlines\"\n",
+    );
     assert_eq!(names(&plain), names(&defaults));
     let of_figures = |name: &String| {
         let mut endings = ["svg", "png", "csv", "txt", "toml", "html"].iter();
@@ -292,6 +299,104 @@ fn histories_materials_and_comparisons_have_captions_too() {
         ("compared/comparison", &["7 cases"]),
     ] {
         says(&place.text(&format!("{figure}.caption.txt")), parts);
+    }
+}
+
+/// The colours of an SVG.
+fn colors(svg: &str) -> BTreeSet<&str> {
+    svg.split("=\"#").skip(1).map(|rest| &rest[..6]).collect()
+}
+
+#[test]
+fn a_folder_is_drawn_anew_in_another_typeface_in_grey_with_titles_and_as_eps() {
+    let place = swept("[figures]\nformats = [\"svg\"]\n");
+    let loss = |name: &str| place.text(&format!("{name}/energy-loss.svg"));
+    assert!(!loss("out").contains("<text"));
+    let draw = |out: &str, settings: &str| {
+        let settings = settings.split(' ');
+        let set: String = settings
+            .map(|set| format!(" --set 'figures.{set}'"))
+            .collect();
+        place.done(&format!("report out --quiet --out {out}{set}"));
+    };
+    draw("grey", "colors=grey titles=true svg_text=text font=serif");
+    let svg = loss("grey");
+    assert!(
+        colors(&loss("out"))
+            .iter()
+            .any(|color| color[..2] != color[2..4])
+    );
+    for color in colors(&svg) {
+        assert!(
+            color[..2] == color[2..4] && color[2..4] == color[4..],
+            "{color}"
+        );
+    }
+    says(
+        &svg,
+        &[
+            "font-family=\"'Tinos', 'Times New Roman'",
+            ">Energy loss per cycle over angular frequency ω</text>",
+        ],
+    );
+    // Letters on the page stay outlines, which look the same everywhere.
+    let page = place.text("grey/index.html");
+    assert!(!between(&page, "role=\"img\">", "</svg>").contains("<text"));
+    draw(
+        "print",
+        "titles=false font=sans formats=[\"pdf\",\"eps\"] column=one",
+    );
+    let (_, pages, pdf) = page_of(&place, "print/energy-loss.pdf");
+    assert!(pages == 1 && pdf.contains("Arimo") && !pdf.contains("DejaVu"));
+    let eps = place.text("print/energy-loss.eps");
+    assert!(eps.starts_with("%!PS-Adobe-3.0 EPSF-3.0\n"));
+    let sides = between(&eps, "%%HiResBoundingBox: 0 0 ", "\n");
+    assert_eq!(sides.split(' ').next(), Some("240.9449"));
+    assert!(!names(&place).iter().any(|name| name.ends_with(".eps")));
+}
+
+#[test]
+fn a_font_is_that_of_a_file_beside_the_sweep_or_refused_with_what_to_write() {
+    let place = Place::with("broken.ttf", "no font");
+    place.put(
+        "my.ttf",
+        fs::read(concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/src/report/fonts/Tinos-Regular.ttf"
+        ))
+        .unwrap(),
+    );
+    let table = |font: &str| format!("[figures]\nformats = [\"pdf\"]\nfont = \"{font}\"\n");
+    sweep_into(&place, &table("my.ttf"));
+    let (_, _, pdf) = page_of(&place, "out/energy-loss.pdf");
+    assert!(pdf.contains("Tinos"));
+    // Where the folder is does not matter to what it says.
+    let kept = place.text("out/resolved.toml");
+    let path = between(&kept, "\nfont = \"", "\"\n");
+    assert!(
+        Path::new(path).is_absolute() && path.ends_with("my.ttf"),
+        "{path}"
+    );
+    let hash = place.json("out/summary.json")["sweep_hash"].take();
+    sweep_into(&place, "");
+    assert_eq!(place.json("out/summary.json")["sweep_hash"], hash);
+    for (font, parts) in [
+        (
+            "broken.ttf",
+            ["broken.ttf", "no TrueType or OpenType font", "sweep.toml:"],
+        ),
+        (
+            "Arial",
+            [
+                "no such typeface",
+                "\"dejavu\", \"sans\" or \"serif\"",
+                ".otf",
+            ],
+        ),
+        ("gone.otf", ["cannot read", "gone.otf", "font = "]),
+    ] {
+        place.put("sweep.toml", format!("{SWEEP}{}", table(font)));
+        says(&place.refused("sweep sweep.toml --quiet --out out"), &parts);
     }
 }
 

@@ -178,6 +178,10 @@ impl Asked<'_> {
             Kind::Either(first, second, _) => {
                 let is_second = match second {
                     Kind::Table(_) => matches!(self.node.value, Toml::Table(_)),
+                    Kind::Text => {
+                        let words = first.words();
+                        !matches!(&self.node.value, Toml::Text(text) if words.contains(&&**text))
+                    }
                     _ => !matches!(self.node.value, Toml::Text(_)),
                 };
                 let kind = if is_second { second } else { first };

@@ -160,7 +160,7 @@ impl Picture {
             None => {}
             Some(false) => self.0.iter_mut().for_each(|chart| chart.title = None),
             Some(true) => {
-                let subject = chart::literal(subject_of(caption));
+                let subject = subject_of(caption).to_owned();
                 if let Some(first) = self.0.first_mut().filter(|_| !subject.is_empty()) {
                     first.title = Some(match &first.title {
                         None => subject,
@@ -343,11 +343,10 @@ mod tests {
             let titles = stack.0.into_iter().map(|chart| chart.title);
             titles.map(Option::unwrap_or_default).collect::<Vec<_>>()
         };
-        let caption = "Hysteresis loops of my_body: load W over approach δ: rigid sphere.";
+        let caption = "Shift factors a_T: over temperature T: rigid sphere.";
         assert_eq!(title(None, caption), ["title", "b"]);
         assert_eq!(title(Some(false), caption), ["", ""]);
-        // The name in it has no subscript.
-        let subject = "Hysteresis loops of my\\_body: title";
+        let subject = "Shift factors a_T: title";
         assert_eq!(title(Some(true), caption), [subject, "b"]);
         assert_eq!(title(Some(true), ""), ["title", "b"]);
         for (caption, expected) in [

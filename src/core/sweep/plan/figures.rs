@@ -8,7 +8,7 @@ use std::sync::Arc;
 use crate::quantity::Dimension::{AngularFrequency, Length};
 use crate::quantity::FrequencyUnit;
 use crate::quantity::block::{Block as _, Field};
-use crate::quantity::key::{Entries, Kind, Limits, Number, number, quantity};
+use crate::quantity::key::{Entries, Kind, Limits, Number, number, quantity, words_of};
 use crate::quantity::setting::{Setting, Table, Value};
 use crate::{block_with_defaults, words};
 
@@ -45,9 +45,9 @@ block_with_defaults! {
         height_m: Option<f64> = None => "height", Kind::Number(SIDE);
         /// Size (pt) of ticks and legends; titles of axes are an eighth larger.
         font_size_pt: Option<f64> = None => "font_size", Kind::Number(number("8").within(FONT_SIZE));
-        /// Typeface: `"dejavu"` (DejaVu Sans), `"sans"` (the widths of Arial), `"serif"` (the widths of Times), or the path of a .ttf or .otf
-        /// file; letters that it lacks are those of DejaVu Sans. Left out: `"dejavu"`.
-        font: FontChoice = FontChoice::Dejavu => "font", Kind::Text, chosen;
+        /// Typeface: DejaVu Sans, Arimo (the widths of Arial), Tinos (the widths of Times), or that of a file. Letters that it lacks are
+        /// those of DejaVu Sans.
+        font: FontChoice = FontChoice::Dejavu => "font", Kind::Either(&Kind::Word(&FontChoice::WORDS), &Kind::Text, ": the path of a .ttf or .otf file");
         /// Greys in place of colours, with line styles and markers that tell curves apart.
         colors: Colors = Colors::Color => "colors", Kind::Word(Colors::WORDS);
         /// File formats; left out: SVG and PNG. PDFs contain text as text, for LaTeX; an EPS has outlines of letters, and no transparency.
@@ -130,6 +130,7 @@ impl FontChoice {
         ("sans", Self::Sans),
         ("serif", Self::Serif),
     ];
+    pub const WORDS: [&'static str; 3] = words_of(&Self::NAMED);
 }
 
 impl Field for FontChoice {
