@@ -67,7 +67,7 @@
 //! | [`simulation`] | one drive history from its beginning to its end |
 //! | [`measured`] | measured loops: frequency, drift, cycles, corrections, moduli; uses the exact model for the bias of the small-amplitude formula |
 //! | [`identify`] | a material from measured cycles: the sweep as a forward model |
-//! | [`figures`] | size of figures on paper, units of normalised axes |
+//! | [`figures`] | size of figures on paper, their typefaces, units of normalised axes |
 //! | [`input`] | sweep, scenario and identification files, and the data files they name, to plans |
 //! | [`report`] | tables and figures, from records alone |
 //! | [`reproduction`] | the base paper, figure by figure; knows `reference` too, to draw closed forms and compare with them |
