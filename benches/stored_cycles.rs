@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let report = "report --no-figures";
     let tables_s = timed(report, &[], folder.path())?;
     let with_cycles_s = timed(report, &["--cycles"], folder.path())?;
-    let megabytes = std::fs::metadata(folder.path().join("cycles.npz"))?.len() / 1_000_000;
+    let megabytes = std::fs::metadata(folder.path().join("cases/cycles.npz"))?.len() / 1_000_000;
     println!(
         "{{\"cases\": {CASES}, \"sweep_s\": {sweep_s:.3}, \"tables_s\": {tables_s:.3}, \"with_cycles_s\": {with_cycles_s:.3}, \
          \"megabytes\": {megabytes}, \"ratio\": {:.1}}}",

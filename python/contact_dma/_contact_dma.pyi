@@ -9,7 +9,7 @@ from os import PathLike
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
 from typing_extensions import disjoint_base
 
-__all__ = ["BUILD", "COMMIT", "VERSION", "Body", "Cycle", "Field", "Figure", "History", "Loops", "MeasuredCycle", "Peak", "PressureLine", "PressureProfile", "Shape", "Status", "SurfaceLine", "SurfaceProfile", "Sweep", "Warning", "calls", "identify_material", "kept_figures", "library_materials", "placed", "quantity", "schema", "write_identification"]
+__all__ = ["BUILD", "COMMIT", "VERSION", "Body", "Cycle", "Field", "Figure", "History", "Loops", "MeasuredCycle", "Peak", "PressureLine", "PressureProfile", "Shape", "Status", "SurfaceLine", "SurfaceProfile", "Sweep", "Warning", "calls", "files_of", "identify_material", "kept_figures", "library_materials", "placed", "quantity", "schema", "write_identification"]
 
 BUILD: Final[str]
 COMMIT: Final[str | None]
@@ -296,7 +296,7 @@ class Loops:
     """
     def __new__(cls, /, origin: "object", frequency_hz: SupportsFloat | SupportsIndex | None = None, setup: tuple[str, str | None] = ..., threads: SupportsIndex | None = None) -> Loops:
         """
-        Of records, of which a frequency (Hz) and a setup, by name and text, may be known; or of the bytes of an ``analysis.json``.
+        Of records, of which a frequency (Hz) and a setup, by name and text, may be known; or of the bytes of a ``records/analysis.json``.
         """
     def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]": ...
     def _all_columns(self, /) -> list[tuple[str, Any]]: ...
@@ -675,8 +675,8 @@ class Sweep:
         """
     def save(self, /, folder: str | PathLike[str], *, overwrite: bool = False) -> None:
         """
-        Writes what ``contact-dma sweep`` writes: records, ``sweep.csv``, loops, pressures, work, ``cycles.npz``, ``summary.json``,
-        ``resolved.toml``, ``run.json``; a map of an array as ``height-map.npy``.
+        Writes what ``contact-dma sweep`` writes: records, ``sweep.csv``, loops, pressures, work, ``cases/cycles.npz``, ``summary.json``,
+        ``resolved.toml``, ``run.json``; a map of an array as ``records/height-map.npy``.
 
         Figures and page are drawn from these by ``contact-dma report FOLDER``, and `read` reads them again.
 
@@ -738,7 +738,7 @@ def identify_material(source: "object", threads: SupportsIndex | None) -> list[t
 
 def kept_figures(file: bytes) -> list[Figure]:
     """
-    The figures that a folder of the program keeps in its ``figures.json``.
+    The figures that a folder of the program keeps in its ``records/figures.json``.
     """
 
 def library_materials() -> list[tuple[str, str, str]]:

@@ -68,12 +68,12 @@ def _read(folder: str | os.PathLike[str]) -> AnyResult:
     path = Path(_toml.path(folder))
     if not path.is_dir():
         raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), os.fspath(folder))
-    analysis = path / "analysis.json"
-    if analysis.is_file() and not (path / "resolved.toml").exists():
-        return AnalysisResult(analysis.read_bytes())
-    if (path / "material.toml").is_file() and (path / "fit.csv").is_file():
-        names = ["material.toml", "resolved.toml", "prony.csv", "fit.csv", "moduli.csv", "summary.json", "figures.json"]
-        return IdentifiedMaterial([(name, (path / name).read_bytes()) for name in names if (path / name).is_file()])
+    files = dict(_core.files_of(path))
+    if "records/analysis.json" in files and "resolved.toml" not in files:
+        return AnalysisResult(Path(files["records/analysis.json"]).read_bytes())
+    if "material.toml" in files and "fit.csv" in files:
+        names = (name for name in IdentifiedMaterial._FILES if name in files)
+        return IdentifiedMaterial([(name, Path(files[name]).read_bytes()) for name in names])
     if (path / "history.csv").is_file():
         return HistoryResult(path)
     return SweepResult(path)

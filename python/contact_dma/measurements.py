@@ -135,6 +135,11 @@ class IdentifiedMaterial:
         report: what was found, one sentence a line.
     """
 
+    _FILES = (
+        "material.toml", "resolved.toml", "prony.csv", "fit.csv", "summary.json", "figures/moduli.csv", "records/figures.json",
+    )
+    """Those of its folder that it is read from."""
+
     def __init__(self, files: Sequence[tuple[str, bytes]]) -> None:
         self._files = dict(files)
         block = self._files["material.toml"].decode("utf-8")
@@ -161,16 +166,16 @@ class IdentifiedMaterial:
 
     @property
     def moduli(self) -> Columns:
-        """E' and E'' with their bands over frequency, the columns of ``moduli.csv``."""
-        return table(self._files["moduli.csv"])
+        """E' and E'' with their bands over frequency, the columns of ``figures/moduli.csv``."""
+        return table(self._files["figures/moduli.csv"])
 
     @property
     def figures(self) -> dict[str, Figure]:
         """The figures that the program draws of it, by name, as those of a sweep."""
-        return {figure.name: figure for figure in _core.kept_figures(self._files["figures.json"])}
+        return {figure.name: figure for figure in _core.kept_figures(self._files["records/figures.json"])}
 
     def save(self, folder: str | os.PathLike[str], *, overwrite: bool = False) -> None:
-        """Writes the tables that ``contact-dma identify`` writes: ``material.toml``, ``prony.csv``, ``fit.csv``, ``moduli.csv``,
+        """Writes the tables that ``contact-dma identify`` writes: ``material.toml``, ``prony.csv``, ``fit.csv``, ``figures/moduli.csv``,
         ``summary.json``, ``resolved.toml``; ``contact-dma report FOLDER`` draws figures and page.
 
         Args:

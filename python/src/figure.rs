@@ -88,7 +88,7 @@ impl Figure {
     }
 }
 
-/// The figures that a folder of the program keeps in its ``figures.json``.
+/// The figures that a folder of the program keeps in its ``records/figures.json``.
 #[pyfunction]
 pub fn kept_figures(file: &[u8]) -> PyResult<Vec<Figure>> {
     let kept = KeptFigures::read(file).map_err(failure::of_value)?;

@@ -1,14 +1,15 @@
 //! Folders of results: what a call had as arrays is written as files there, so that the program reads the folder as one of its own.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use contact_dma::engine::SolverPlan;
 use contact_dma::input::diagnostic::{Diagnostics, Tables};
 use contact_dma::input::document::Document;
 use contact_dma::quantity::setting::toml_string;
+use contact_dma::sweep::store::files::{self, Found, Place};
 use contact_dma::sweep::store::provenance::{Circumstances, Stopwatch};
-use contact_dma::sweep::store::{RESOLVED, Store, files};
+use contact_dma::sweep::store::{RESOLVED, Store};
 use pyo3::prelude::*;
 
 use crate::failure;
@@ -20,6 +21,15 @@ pub fn document(folder: &Path) -> PyResult<(Store, Document)> {
     let name = folder.join(RESOLVED).display().to_string();
     let document = Document::parse(&name, &resolved).map_err(|found| failure::of_input(&found))?;
     Ok((store, document.in_folder(folder)))
+}
+
+/// Every file that the program has written into a folder: its name in the present layout, and its path, which differs in folders of
+/// earlier versions.
+#[pyfunction]
+pub fn files_of(folder: PathBuf) -> Vec<(String, PathBuf)> {
+    let found = Found::of(&folder);
+    let files = found.all();
+    files.map(|(name, path)| (name.to_owned(), path)).collect()
 }
 
 /// How a kind of plan is written and read.
@@ -49,7 +59,8 @@ impl<P: Clone> Format<P> {
                 .iter()
                 .filter(|(file, _)| file.ends_with(".npy") == is_map);
             let file = files::of_array(is_map, before.count());
-            let path = std::path::absolute(folder.join(&file)).map_err(failure::of_value)?;
+            let place = Place::Record(&file).to_string();
+            let path = std::path::absolute(folder.join(place)).map_err(failure::of_value)?;
             let path = path.to_str().ok_or_else(|| {
                 failure::of_value("the path of the folder is not UTF-8, and cannot be written down")
             })?;
@@ -62,7 +73,7 @@ impl<P: Clone> Format<P> {
         let plan = plan.map_err(|found| failure::of_input(&found))?;
         let store = Store::open(folder, &(self.resolved)(&plan), force).map_err(stored)?;
         for (file, (_, bytes)) in names.iter().zip(&placed) {
-            store.write(file, bytes).map_err(stored)?;
+            store.write(Place::Record(file), bytes).map_err(stored)?;
         }
         Ok((store, plan))
     }

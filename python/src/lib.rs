@@ -31,6 +31,8 @@ mod _contact_dma {
     #[pymodule_export]
     use crate::figure::{Figure, kept_figures};
     #[pymodule_export]
+    use crate::folder::files_of;
+    #[pymodule_export]
     use crate::history::History;
     #[pymodule_export]
     use crate::measured::{Loops, identify_material, quantity, write_identification};

@@ -53,7 +53,7 @@ enum LoopsOrigin<'py> {
 
 #[pymethods]
 impl Loops {
-    /// Of records, of which a frequency (Hz) and a setup, by name and text, may be known; or of the bytes of an ``analysis.json``.
+    /// Of records, of which a frequency (Hz) and a setup, by name and text, may be known; or of the bytes of a ``records/analysis.json``.
     #[new]
     #[pyo3(signature = (origin: "object", frequency_hz = None, setup = (String::new(), None), threads = None))]
     fn new(
@@ -226,7 +226,7 @@ fn with_figures<N: Into<String>>(
     let (mut kept, _) = kept.map_err(|error| failure::of_report(&error))?;
     let kept = kept.to_json(&FigurePlan::default());
     let files = files.into_iter().map(|(name, bytes)| (name.into(), bytes));
-    let kept = (KEPT.to_owned(), kept.map_err(failure::of_run)?);
+    let kept = (KEPT.to_string(), kept.map_err(failure::of_run)?);
     Ok(files.chain([kept]).collect())
 }
 

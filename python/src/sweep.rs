@@ -215,8 +215,8 @@ impl Sweep {
         this.cycle(py, angular_frequency, &read, &line)
     }
 
-    /// Writes what ``contact-dma sweep`` writes: records, ``sweep.csv``, loops, pressures, work, ``cycles.npz``, ``summary.json``,
-    /// ``resolved.toml``, ``run.json``; a map of an array as ``height-map.npy``.
+    /// Writes what ``contact-dma sweep`` writes: records, ``sweep.csv``, loops, pressures, work, ``cases/cycles.npz``, ``summary.json``,
+    /// ``resolved.toml``, ``run.json``; a map of an array as ``records/height-map.npy``.
     ///
     /// Figures and page are drawn from these by ``contact-dma report FOLDER``, and `read` reads them again.
     ///

@@ -24,7 +24,7 @@ from contact_dma import _sources
 from contact_dma._sources import Source, source_of_values
 
 COARSE = {"solver.springs": 32, "cycle.steps": 32}
-TABLES = ["sweep.csv", "summary.json", "resolved.toml", "cycles.npz", "loops/0.csv", "pressures/1.csv", "work/2.csv"]
+TABLES = ["sweep.csv", "summary.json", "resolved.toml", "cases/cycles.npz", "cases/loops/0.csv", "cases/pressures/1.csv", "cases/work/2.csv"]
 
 
 def run_program(program: str, *arguments: object) -> None:
@@ -41,7 +41,7 @@ def test_a_file_gives_what_the_program_writes_byte_for_byte(program: str, tmp_pa
         assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "program" / name).read_bytes(), name
     # The program draws what Python has saved, without solving anything, and peaks are there too.
     run_program(program, "report", tmp_path / "python")
-    assert (tmp_path / "python/energy-loss.svg").is_file() and (tmp_path / "python/index.html").is_file()
+    assert (tmp_path / "python/figures/energy-loss.svg").is_file() and (tmp_path / "python/index.html").is_file()
     for name in TABLES:
         assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "program" / name).read_bytes(), name
     # And Python reads what the program has written.
@@ -443,7 +443,7 @@ def test_figures_are_those_of_the_program_and_written_as_their_ending_says(resul
         figure.save(tmp_path / name)
         assert (tmp_path / name).read_bytes().startswith(begin)
     curve = re.findall(r'<poly(?:line|gon)[^>]* points="[^"]*"', (tmp_path / "loss.svg").read_text())
-    assert curve == re.findall(r'<poly(?:line|gon)[^>]* points="[^"]*"', (tmp_path / "out/energy-loss.svg").read_text())
+    assert curve == re.findall(r'<poly(?:line|gon)[^>]* points="[^"]*"', (tmp_path / "out/figures/energy-loss.svg").read_text())
     with pytest.raises(ValueError, match="end it with .svg"):
         figure.save(tmp_path / "loss.gif")
 

@@ -27,6 +27,7 @@ use crate::report::measured::{
 };
 use crate::sweep::record::Status;
 use crate::sweep::search::run;
+use crate::sweep::store::files::Found;
 use crate::sweep::store::manifest::{Kind, Target};
 
 #[derive(Debug, Args)]
@@ -163,7 +164,7 @@ fn rows(
 
 /// The analysis of a folder.
 pub(super) fn stored(folder: &Path) -> Result<Analysis, Failure> {
-    let path = folder.join(ANALYSIS);
+    let path = Found::of(folder).path(ANALYSIS);
     serde_json::from_slice(&read_bytes(&path, MAX_BYTES)?).map_err(|error| {
         Failure::input(format!(
             "{} is none that this version of the program wrote: {error}",

@@ -14,12 +14,13 @@ use super::progress::Shown;
 use super::sweep::Job;
 use super::{analyse, simulate};
 use crate::report::figure::press::Files;
-use crate::report::kept_figures::{KEPT, KeptFigures, is_drawn};
+use crate::report::kept_figures::{KEPT, KeptFigures};
 use crate::report::scenario_folder;
 use crate::simulation::{Simulation, SimulationEnd};
 use crate::sweep::plan::resolved::resolved_text;
 use crate::sweep::search::run::{self, Mode};
-use crate::sweep::store::manifest::{Kind, RUN, Target, files_of, kind_of};
+use crate::sweep::store::files::{Found, Place};
+use crate::sweep::store::manifest::{Kind, RUN, Target, kind_of};
 use crate::sweep::store::provenance::Stopwatch;
 use crate::sweep::store::{RESOLVED, Store};
 
@@ -30,8 +31,8 @@ Examples:
   contact-dma report reports/pmma --set figures.column=one --set figures.dpi=600
   contact-dma report reports/pmma --out paper/figures
 
-Sweeps and histories are drawn from their records and tables, everything else from figures.json.
-How figures look is kept in the [figures] table of resolved.toml, or in figures.json.")]
+Sweeps and histories are drawn from their records and tables, everything else from records/figures.json.
+How figures look is kept in the [figures] table of resolved.toml, or in records/figures.json.")]
 pub(super) struct ReportFlags {
     /// Folder of a sweep, a history, an analysis, an identification, a material, a fit or a comparison
     #[arg(value_name = "DIR")]
@@ -47,7 +48,7 @@ pub(super) struct ReportFlags {
     /// Write only tables, without figures and page
     #[arg(long)]
     no_figures: bool,
-    /// Write cycles.npz, all cycles for NumPy, also for more than 200 cases; without this flag an earlier one is removed
+    /// Write cases/cycles.npz, all cycles for NumPy, also for more than 200 cases; without this flag an earlier one is removed
     #[arg(long)]
     cycles: bool,
     /// Change one key of [figures], for example figures.width='85 mm'; may be repeated
@@ -83,7 +84,7 @@ impl ReportFlags {
     /// Keeps what the folder says of its figures.
     fn keep(&self, out: &Store, (before, plan): (&str, &str)) -> Result<(), Failure> {
         if before != plan || self.out.is_some() {
-            out.write(RESOLVED, plan.as_bytes())?;
+            out.write(Place::Top(RESOLVED), plan.as_bytes())?;
         }
         Ok(())
     }
@@ -150,7 +151,8 @@ fn history(flags: &ReportFlags, format: OutputFormat) -> Result<Ended, Failure> 
 /// What has the figures of its folder in figures.json.
 fn figures(flags: &ReportFlags, kind: Kind, format: OutputFormat) -> Result<Ended, Failure> {
     let folder = flags.folder.as_path();
-    let path = folder.join(KEPT);
+    let found = Found::of(folder);
+    let path = found.path(KEPT);
     let name = path.display().to_string();
     let kept = match path.exists() {
         true => KeptFigures::read(&read_bytes(&path, MAX_BYTES)?).map_err(|error| {
@@ -162,9 +164,9 @@ fn figures(flags: &ReportFlags, kind: Kind, format: OutputFormat) -> Result<Ende
     };
     let asked = figure_plan(&name, kept.asked(), &flags.set)?;
     let files = Files::default();
-    for file in files_of(folder)? {
-        if file != RUN && file != KEPT && !is_drawn(&file) {
-            files.insert(&*file, read_bytes(&folder.join(&file), MAX_BYTES)?);
+    for (file, path) in found.all() {
+        if file != RUN && !kept.make(file) {
+            files.insert(file, read_bytes(&path, MAX_BYTES)?);
         }
     }
     let out = flags.out.as_deref().unwrap_or(folder);
@@ -185,7 +187,7 @@ fn figures(flags: &ReportFlags, kind: Kind, format: OutputFormat) -> Result<Ende
     tell(format, flags.quiet, found, text)
 }
 
-/// A folder without figures.json, whose figures only the command that made it can make: it says by which.
+/// A folder without `records/figures.json`, whose figures only the command that made it can make: it says by which.
 fn without_figures(flags: &ReportFlags, kind: Kind) -> Failure {
     let folder = flags.folder.display();
     let again = match kind {

@@ -38,7 +38,7 @@ pub(super) struct SweepFlags {
     /// --set cycle.accuracy=X
     #[arg(long, value_name = "X")]
     accuracy: Option<f64>,
-    /// Write cycles.npz, all cycles for NumPy, also for more than 200 cases; without this flag an earlier one is removed
+    /// Write cases/cycles.npz, all cycles for NumPy, also for more than 200 cases; without this flag an earlier one is removed
     #[arg(long)]
     cycles: bool,
     /// Compute only the part K of N; `merge` joins parts in separate folders

@@ -17,10 +17,8 @@ use crate::indenter::Indenter;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::{CaseRecord, PressureProfile, RecordedCycle};
 use crate::sweep::search::run::Outcome;
+use crate::sweep::store::files::Place;
 use crate::sweep::store::{Store, StoreError};
-
-/// The name of the file.
-pub const NAME: &str = "cycles.npz";
 
 /// A name, the numbers of one case that a row is made of, and whether these are profiles: instants by places, as many of each.
 type Array = (&'static str, fn(&Case<'_>) -> Vec<f64>, bool);
@@ -138,7 +136,7 @@ pub fn write(
     outcome: &Outcome,
 ) -> Result<(), StoreError> {
     let widths = widths(records, plan, outcome)?;
-    to.write_with(NAME, |file| {
+    to.write_with(Place::Archive, |file| {
         let arrays = arrays((records, plan, outcome), &widths)?;
         let mut file = FirstError { file, error: None };
         {

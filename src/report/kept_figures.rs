@@ -12,12 +12,10 @@ use super::identify::IdentifyReport;
 use super::measured::Analysis;
 use super::page::{self, Pictures};
 use crate::sweep::plan::figures::FigurePlan;
-use crate::sweep::store::files::{CAPTION, PICTURES};
+use crate::sweep::store::files::{CAPTION, DATA, PAGE, PICTURES, Place};
 
-/// The name of the file.
-pub const KEPT: &str = "figures.json";
-/// The name of the page.
-const PAGE: &str = "index.html";
+/// The file.
+pub const KEPT: Place<'_> = Place::Record("figures.json");
 
 /// The figures of a result and its page.
 #[derive(Debug, Serialize, Deserialize)]
@@ -150,6 +148,23 @@ impl KeptFigures {
         &self.asked
     }
 
+    /// Whether a file of the folder, by its name in the present layout, is made by drawing them: the page, a picture, a caption, the
+    /// data behind it.
+    pub fn make(&self, file: &str) -> bool {
+        let with_data = |figure: &Kept| {
+            let data = Place::Figure(&figure.name, DATA).to_string();
+            // In folders of earlier versions not every figure had another name than a table.
+            !figure.data.is_empty() && (file == data || data.ends_with(&format!("/{file}")))
+        };
+        let is_picture = || {
+            PICTURES
+                .iter()
+                .chain([&CAPTION])
+                .any(|ending| file.ends_with(ending))
+        };
+        file == PAGE || is_picture() || self.figures.iter().any(with_data)
+    }
+
     /// Their names.
     pub fn names(&self) -> Vec<&str> {
         self.figures.iter().map(|figure| &*figure.name).collect()
@@ -167,8 +182,8 @@ impl KeptFigures {
     /// [`ReportError`] naming the file that cannot be made.
     pub fn draw(&self, plan: &FigurePlan, files: &Files) -> Result<Vec<String>, ReportError> {
         let pictures = Pictures::default();
-        let write = |name: &str, bytes: &[u8]| {
-            files.insert(name, bytes);
+        let write = |place: Place<'_>, bytes: &[u8]| {
+            files.insert(place, bytes);
             Ok(())
         };
         let press = Press {
@@ -178,7 +193,7 @@ impl KeptFigures {
         };
         self.figures.par_iter().try_for_each(|figure| {
             if !figure.data.is_empty() {
-                files.insert(format!("{}.csv", figure.name), &*figure.data);
+                files.insert(Place::Figure(&figure.name, DATA), &*figure.data);
             }
             press.picture(&figure.name, "figure", &figure.picture, &figure.caption)
         })?;
@@ -196,13 +211,4 @@ impl KeptFigures {
         self.asked = plan.text();
         serde_json::to_vec(self)
     }
-}
-
-/// Whether a file is drawn: a picture, its caption, the page.
-pub fn is_drawn(name: &str) -> bool {
-    name == PAGE
-        || PICTURES
-            .iter()
-            .chain([&CAPTION])
-            .any(|ending| name.ends_with(ending))
 }

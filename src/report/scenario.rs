@@ -10,6 +10,7 @@ use crate::report::scenario_tables::{self, History};
 use crate::simulation::scenario::ScenarioPlan;
 use crate::sweep::plan::figures::AxisUnits;
 use crate::sweep::store::Store;
+use crate::sweep::store::files::{PAGE, Place};
 
 /// Writes everything, as far as the simulation came. Returns what was left out and why.
 ///
@@ -35,7 +36,7 @@ pub fn write(
     }
     left_out.extend(pictures.not_drawn());
     let page = page::simulation(plan, (outcome, profiles), &pictures, store.sweep_hash())?;
-    store.write("index.html", page.as_bytes())?;
+    store.write(Place::Top(PAGE), page.as_bytes())?;
     store.remove_stale()?;
     Ok(left_out)
 }
@@ -78,7 +79,7 @@ fn figures(
     let setting = Setting::of_scenario(plan, outcome, units.sentence());
     let press = Press {
         plan: &plan.figures,
-        write: &|name, bytes| store.write(name, bytes),
+        write: &|place, bytes| store.write(place, bytes),
         pictures,
     };
     let (figures, mut left_out) = lines(history, &units);

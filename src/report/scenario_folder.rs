@@ -11,7 +11,8 @@ use super::npy;
 use super::profile_lines::{Profile, ProfilePoint};
 use super::quantities::{self, Column, Moment};
 use super::scenario_tables::{
-    ALONG_AXES, ALONG_RADIUS, CYCLES, HISTORY, History, INDEX, Indexed, OnLine, SUMMARY,
+    ALONG_AXES, ALONG_RADIUS, CYCLES, HISTORY, History, INDEX, INDEX_FILE, Indexed, OnLine,
+    SUMMARY, field_file, profile_file,
 };
 use super::table_reader::{self, MAX_BYTES};
 use crate::contact::half_space::grid::Grid;
@@ -23,6 +24,7 @@ use crate::simulation::errors::RowErrors;
 use crate::simulation::scenario;
 use crate::simulation::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome, SurfaceRecord};
 use crate::sweep::plan::resolved::hash;
+use crate::sweep::store::files::{Found, OfCase, Place};
 
 /// What is read of `summary.json`.
 #[derive(Deserialize)]
@@ -42,7 +44,10 @@ struct Kept {
 /// Files that are missing, that are not as they were written, or that are of another scenario; with file and line.
 pub fn read(folder: &Path, simulation: &Simulation) -> Result<History, Diagnostics> {
     let plan = simulation.plan();
-    let folder = Folder(folder);
+    let folder = Folder {
+        path: folder,
+        found: Found::of(folder),
+    };
     let kept = folder.summary()?;
     if kept.scenario_hash != hash(&scenario::resolved_text(plan)) {
         return Err(folder.wrong(
@@ -59,13 +64,15 @@ pub fn read(folder: &Path, simulation: &Simulation) -> Result<History, Diagnosti
     }
     let profiles = match plan.output.profiles_at_s.len() {
         0 => Vec::new(),
-        most => folder.surfaces("profiles", most, |k, row, grid| {
+        most => folder.surfaces(OfCase::Profiles, most, |k, row, grid| {
             folder.profile(k, row, grid)
         })?,
     };
     let fields = match plan.output.fields_at_s.len() {
         0 => Vec::new(),
-        most => folder.surfaces("fields", most, |k, row, grid| folder.field(k, row, grid))?,
+        most => folder.surfaces(OfCase::Fields, most, |k, row, grid| {
+            folder.field(k, row, grid)
+        })?,
     };
     let mut cycles = cycles::in_rows(plan, &rows);
     if !cycles.is_empty() {
@@ -97,11 +104,14 @@ pub fn read(folder: &Path, simulation: &Simulation) -> Result<History, Diagnosti
 const AGAIN: &str = "run `contact-dma simulate` again for this folder";
 
 /// The folder of a history.
-struct Folder<'a>(&'a Path);
+struct Folder<'a> {
+    path: &'a Path,
+    found: Found,
+}
 
 impl Folder<'_> {
     fn name(&self, file: &str) -> String {
-        self.0.join(file).display().to_string()
+        self.path.join(file).display().to_string()
     }
 
     /// What is wrong with a file as a whole.
@@ -111,7 +121,7 @@ impl Folder<'_> {
     }
 
     fn bytes(&self, file: &str, most: usize) -> Result<Vec<u8>, Diagnostics> {
-        match read_limited(&self.0.join(file), most) {
+        match read_limited(&self.path.join(file), most) {
             Ok(bytes) if bytes.len() <= most => Ok(bytes),
             Ok(_) => Err(self.wrong(file, format!("larger than {} MB", most / 1_000_000))),
             Err(error) => {
@@ -156,12 +166,12 @@ impl Folder<'_> {
     /// The surfaces that the index of a folder names; none where the history did not come to the first of them.
     fn surfaces<S>(
         &self,
-        below: &str,
+        kind: OfCase,
         most: usize,
         surface: impl Fn(usize, HistoryRow, Option<Grid>) -> Result<S, Diagnostics>,
     ) -> Result<Vec<S>, Diagnostics> {
-        let file = format!("{below}/index.csv");
-        if !self.0.join(&file).exists() {
+        let file = self.found.name(Place::Case(kind, INDEX_FILE));
+        if !self.path.join(&file).exists() {
             return Ok(Vec::new());
         }
         let indexed = self.table(&file, INDEX, &Indexed::default(), most)?;
@@ -192,7 +202,10 @@ impl Folder<'_> {
             line: line.to_owned(),
             ..OnLine::default()
         };
-        let points = self.table(&format!("profiles/{k}.csv"), columns, &of_line, usize::MAX)?;
+        let file = self
+            .found
+            .name(Place::Case(OfCase::Profiles, &profile_file(k)));
+        let points = self.table(&file, columns, &of_line, usize::MAX)?;
         let lines = points.chunk_by(|a, b| a.line == b.line).map(|points| {
             let line = points.first().map_or("", |point| &point.line);
             let points: Vec<ProfilePoint> = points.iter().map(|point| point.point).collect();
@@ -211,19 +224,21 @@ impl Folder<'_> {
         row: HistoryRow,
         grid: Option<Grid>,
     ) -> Result<SurfaceRecord, Diagnostics> {
-        let grid = grid.ok_or_else(|| self.wrong("fields/index.csv", "a field without cells"))?;
+        let index = self.found.name(Place::Case(OfCase::Fields, INDEX_FILE));
+        let grid = grid.ok_or_else(|| self.wrong(&index, "a field without cells"))?;
+        let file = |quantity: &str| {
+            let name = field_file(k, quantity);
+            self.found.name(Place::Case(OfCase::Fields, &name))
+        };
         let values = |quantity: &str| {
-            let file = format!("fields/{k}-{quantity}.npy");
+            let file = file(quantity);
             let (rows, columns) = (grid.cells_y(), grid.cells_x());
             let values = npy::values(rows, columns, &self.bytes(&file, MAX_BYTES)?);
-            let other = || {
-                format!(
-                    "no matrix of {rows} rows and {columns} columns, as fields/index.csv has it"
-                )
-            };
+            let other =
+                || format!("no matrix of {rows} rows and {columns} columns, as {index} has it");
             values.ok_or_else(|| self.wrong(&file, other()))
         };
-        let has_gap = self.0.join(format!("fields/{k}-gap_m.npy")).exists();
+        let has_gap = self.path.join(file("gap_m")).exists();
         Ok(SurfaceRecord {
             row,
             surface: Surface::Cells(CellSurface {

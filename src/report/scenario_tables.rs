@@ -1,7 +1,5 @@
 //! The tables of a scenario: the history, profiles and fields at the times asked for, the summary.
 
-use std::path::Path;
-
 use serde::Serialize;
 
 use super::ReportError;
@@ -18,6 +16,7 @@ use crate::simulation::outside_model;
 use crate::simulation::scenario::ScenarioPlan;
 use crate::simulation::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
 use crate::sweep::store::Store;
+use crate::sweep::store::files::{OfCase, Place};
 
 /// The table of time steps.
 pub(super) const HISTORY: &str = "history.csv";
@@ -25,6 +24,19 @@ pub(super) const HISTORY: &str = "history.csv";
 pub(super) const CYCLES: &str = "cycles.csv";
 /// What the simulation came to.
 pub(super) const SUMMARY: &str = "summary.json";
+
+/// Which time and state the files of a folder belong to.
+pub(super) const INDEX_FILE: &str = "index.csv";
+
+/// The table of the profile `k`.
+pub(super) fn profile_file(k: usize) -> String {
+    format!("{k}.csv")
+}
+
+/// One quantity of the field `k`.
+pub(super) fn field_file(k: usize, quantity: &str) -> String {
+    format!("{k}-{quantity}.npy")
+}
 
 /// A history with its profiles along their lines: all that its tables, figures and page are made of.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,22 +67,26 @@ pub fn write(
     plan: &ScenarioPlan,
     (outcome, profiles): (&SimulationOutcome, &[Profile]),
 ) -> Result<(), ReportError> {
-    store.write(HISTORY, &quantities::history(outcome))?;
+    store.write(Place::Top(HISTORY), &quantities::history(outcome))?;
     if !outcome.cycles.is_empty() {
-        store.write(CYCLES, &quantities::cycles(outcome))?;
+        store.write(Place::Top(CYCLES), &quantities::cycles(outcome))?;
     }
-    store.write(SUMMARY, &summary(plan, outcome, store.sweep_hash())?)?;
+    store.write(
+        Place::Top(SUMMARY),
+        &summary(plan, outcome, store.sweep_hash())?,
+    )?;
     if !profiles.is_empty() {
         let surfaces = profiles.iter().map(|profile| (profile.row, profile.grid));
-        store.write("profiles/index.csv", &index(surfaces))?;
+        store.write(Place::Case(OfCase::Profiles, INDEX_FILE), &index(surfaces))?;
         for (k, profile) in profiles.iter().enumerate() {
-            store.write(format!("profiles/{k}.csv"), &points(profile))?;
+            let place = Place::Case(OfCase::Profiles, &profile_file(k));
+            store.write(place, &points(profile))?;
         }
     }
     if !outcome.fields.is_empty() {
         let surfaces = outcome.fields.iter();
         let surfaces = surfaces.map(|record| (record.row, profile_lines::grid(record)));
-        store.write("fields/index.csv", &index(surfaces))?;
+        store.write(Place::Case(OfCase::Fields, INDEX_FILE), &index(surfaces))?;
         for (k, record) in outcome.fields.iter().enumerate() {
             write_fields(store, k, record)?;
         }
@@ -78,7 +94,7 @@ pub fn write(
     Ok(())
 }
 
-/// A row of `index.csv`: which time and state each file of a folder belongs to.
+/// A row of [`INDEX_FILE`].
 #[derive(Debug, Clone, Default)]
 pub(super) struct Indexed {
     pub(super) index: usize,
@@ -90,7 +106,7 @@ pub(super) struct Indexed {
 
 type OfIndex = Column<Indexed>;
 
-/// The columns of `index.csv`.
+/// The columns of [`INDEX_FILE`].
 #[rustfmt::skip]
 pub(super) static INDEX: &[OfIndex] = &[
     OfIndex::new("index", |r| r.index.into(), "the number in the names of its files").read_into(|r| Count(&mut r.index)),
@@ -115,7 +131,7 @@ fn index(surfaces: impl Iterator<Item = (HistoryRow, Option<Grid>)>) -> Vec<u8> 
     quantities::table(INDEX, &rows)
 }
 
-/// A row of `profiles/<k>.csv`.
+/// A row of [`profile_file`].
 #[derive(Debug, Clone, Default)]
 pub(super) struct OnLine {
     pub(super) line: String,
@@ -146,7 +162,7 @@ const GAP: Column<OnLine> = on_line(
     |r| Optional(&mut r.point.gap_m),
 );
 
-/// The columns of `profiles/<k>.csv` along a radius.
+/// The columns of [`profile_file`] along a radius.
 pub(super) static ALONG_RADIUS: &[Column<OnLine>] = &[
     on_line(
         "radius_m",
@@ -170,7 +186,7 @@ pub(super) static ALONG_AXES: &[Column<OnLine>] = &[
     GAP,
 ];
 
-/// `profiles/<k>.csv`.
+/// The content of [`profile_file`].
 fn points(profile: &Profile) -> Vec<u8> {
     let columns = match profile.grid {
         None => ALONG_RADIUS,
@@ -186,7 +202,7 @@ fn points(profile: &Profile) -> Vec<u8> {
     quantities::table(columns, &rows.collect::<Vec<_>>())
 }
 
-/// `fields/<k>-<quantity>.npy` and `fields/<k>.vti`. The gap is infinite where there is no indenter, and left out where the
+/// Every quantity of a field, [`field_file`], and all of them for ParaView, `<k>.vti`. The gap is infinite where there is no indenter, and left out where the
 /// indenter's place is unknown.
 fn write_fields(store: &Store, k: usize, record: &SurfaceRecord) -> Result<(), ReportError> {
     let Surface::Cells(cells) = &record.surface else {
@@ -201,11 +217,11 @@ fn write_fields(store: &Store, k: usize, record: &SurfaceRecord) -> Result<(), R
     }
     let (rows, columns) = (cells.grid.cells_y(), cells.grid.cells_x());
     for (name, values) in &fields {
-        let path = Path::new("fields").join(format!("{k}-{name}.npy"));
-        store.write(path, &npy::matrix(rows, columns, values))?;
+        let place = Place::Case(OfCase::Fields, &field_file(k, name));
+        store.write(place, &npy::matrix(rows, columns, values))?;
     }
     let image = vti::image(&cells.grid, record.row.time_s, &fields);
-    store.write(format!("fields/{k}.vti"), &image)?;
+    store.write(Place::Case(OfCase::Fields, &format!("{k}.vti")), &image)?;
     Ok(())
 }
 

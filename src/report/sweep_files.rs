@@ -12,6 +12,7 @@ use crate::sweep::plan::SweepPlan;
 use crate::sweep::plan::figures::AxisUnits;
 use crate::sweep::search::run::Outcome;
 use crate::sweep::store::Store;
+use crate::sweep::store::files::{PAGE, Place};
 
 /// Reads the cycles of the cases that figures and page show, where the outcome does not hold them already.
 ///
@@ -84,7 +85,7 @@ fn figures_of_sweep(
     let pictures = Pictures::of_sweep(store.sweep_hash());
     let press = Press {
         plan: &plan.figures,
-        write: &|name, bytes| store.write(name, bytes),
+        write: &|place, bytes| store.write(place, bytes),
         pictures: &pictures,
     };
     press.figures(&figures, &Setting::of_sweep(plan, outcome, units))?;
@@ -93,7 +94,7 @@ fn figures_of_sweep(
     }
     left_out.extend(pictures.not_drawn());
     let page = page::sweep(plan, outcome, &pictures, store.sweep_hash())?;
-    store.write("index.html", page.as_bytes())?;
+    store.write(Place::Top(PAGE), page.as_bytes())?;
     Ok(left_out)
 }
 

@@ -12,6 +12,7 @@ use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::{CaseRecord, CaseResult};
 use crate::sweep::search::run::Outcome;
 use crate::sweep::store::Store;
+use crate::sweep::store::files::{OfCase, Place};
 
 /// Writes the tables. `only` are the cases that have tables of their own; without it, all that hold their cycle.
 ///
@@ -26,7 +27,7 @@ pub fn write(
     let branches = outcome.branches();
     let unit = plan.figures.frequency_unit;
     store.write(
-        "sweep.csv",
+        Place::Top("sweep.csv"),
         &quantities::sweep(&outcome.records, branches, unit, plan.axes.as_ref()),
     )?;
     let has_tables = |record: &&CaseRecord| only.is_none_or(|only| only.contains(&record.index));
@@ -34,17 +35,18 @@ pub fn write(
         let Some(cycle) = record.result.as_ref().and_then(CaseResult::cycle) else {
             continue;
         };
-        let name = |folder: &str| format!("{folder}/{}.csv", record.index);
-        store.write(name("loops"), &table::samples(&cycle.samples))?;
+        let name = format!("{}.csv", record.index);
+        let place = |kind| Place::Case(kind, &name);
+        store.write(place(OfCase::Loops), &table::samples(&cycle.samples))?;
         let pressures = table::pressures(&cycle.pressures, plan.base.drive.control());
-        store.write(name("pressures"), &pressures)?;
+        store.write(place(OfCase::Pressures), &pressures)?;
         let work = WorkLine::of(&cycle.surface_loss, plan.indenter_under(&record.varied));
-        store.write(name("work"), &table::work(&work))?;
+        store.write(place(OfCase::Work), &table::work(&work))?;
     }
     if plan.is_small() {
         cycles::write(store, store, plan, outcome)?;
     }
     let summary = summary::summary(plan, outcome, store.sweep_hash())?;
-    store.write("summary.json", &summary)?;
+    store.write(Place::Top("summary.json"), &summary)?;
     Ok(())
 }

@@ -149,7 +149,7 @@ pub fn of_rows<R>(rows: impl IntoIterator<Item = R>, columns: &[ColumnOf<'_, R>]
     csv(&names, rows.map(|row| cells(row).collect::<Vec<_>>()))
 }
 
-/// `loops/<index>.csv`: the stabilised cycle of one case.
+/// `cases/loops/<index>.csv`: the stabilised cycle of one case.
 pub fn samples(samples: &Loop) -> Vec<u8> {
     let rows = (0..samples.time_s.len()).map(|at| (samples, at));
     of_rows(
@@ -170,7 +170,7 @@ pub fn samples(samples: &Loop) -> Vec<u8> {
     )
 }
 
-/// `pressures/<index>.csv`: the pressure over the contact at the instants recorded of the stabilised cycle, one row per place.
+/// `cases/pressures/<index>.csv`: the pressure over the contact at the instants recorded of the stabilised cycle, one row per place.
 pub fn pressures(profiles: &[PressureProfile], control: Control) -> Vec<u8> {
     let lines = profiles
         .iter()
@@ -200,7 +200,7 @@ pub fn pressures(profiles: &[PressureProfile], control: Control) -> Vec<u8> {
     )
 }
 
-/// `work/<index>.csv`: the density of the work per cycle along one line.
+/// `cases/work/<index>.csv`: the density of the work per cycle along one line.
 pub fn work(line: &WorkLine) -> Vec<u8> {
     let rows = line.points.iter();
     of_rows(

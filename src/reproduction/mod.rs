@@ -56,6 +56,7 @@ use crate::sweep::plan::figures::FigurePlan;
 use crate::sweep::search::peak::PeakError;
 use crate::sweep::search::run::{self, RunError};
 use crate::sweep::store::StoreError;
+use crate::sweep::store::files::{DATA, Place};
 use number::Data;
 
 /// The figures of the paper that show computed results; 2 and 3 are flowcharts.
@@ -266,8 +267,8 @@ pub fn make(
 /// [`ReproductionError`] where a picture cannot be drawn.
 pub fn files(figures: &[Figure], plan: &FigurePlan) -> Result<Vec<(String, Vec<u8>)>> {
     let files = Files::default();
-    let write = |name: &str, bytes: &[u8]| {
-        files.insert(name, bytes);
+    let write = |place: Place<'_>, bytes: &[u8]| {
+        files.insert(place, bytes);
         Ok(())
     };
     // The page shows every picture, in whatever forms they are written.
@@ -280,7 +281,7 @@ pub fn files(figures: &[Figure], plan: &FigurePlan) -> Result<Vec<(String, Vec<u
     figures.par_iter().try_for_each(|figure| {
         let name = figure.name();
         let picture = Picture(figure.panels.clone());
-        files.insert(format!("{name}.csv"), &figure.data[..]);
+        files.insert(Place::Figure(&name, DATA), &figure.data[..]);
         // The page of the repository shows one resolution.
         let mut forms = paper::pictures(plan);
         forms.retain(|(ending, _)| *ending != "@2x.png");

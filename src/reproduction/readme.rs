@@ -58,7 +58,7 @@ fn section(text: &mut String, figure: &Figure) {
     let name = figure.name();
     let _ = writeln!(
         text,
-        "\n## Figure {}\n\n![Figure {}]({name}.png)\n\n{} Data: [{name}.csv]({name}.csv); [SVG]({name}.svg).\n",
+        "\n## Figure {}\n\n![Figure {}](figures/{name}.png)\n\n{} Data: [{name}.csv](figures/{name}.csv); [SVG](figures/{name}.svg).\n",
         figure.number, figure.number, figure.caption
     );
     text.push_str("| the paper states | number | verdict |\n|---|---|---|\n");

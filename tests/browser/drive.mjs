@@ -40,7 +40,7 @@ const chosen = (page) => page.evaluate(() => Number(document.querySelector("#cas
 /** The loop on the screen is that of the case in the folder: number for number to the six digits of the page. */
 async function isLoopOf(page, name, index) {
   const drawn = await page.evaluate(() => { const s = document.querySelector("#loop").spec.series[0]; return { x: s.x, y: s.y, path: document.querySelector("#loop svg path[fill=none][stroke-width='1.8']").getAttribute("d") }; });
-  const samples = table(`${here}/${name}/loops/${index}.csv`);
+  const samples = table(`${here}/${name}/cases/loops/${index}.csv`);
   const stride = (samples.length - 1) / (drawn.x.length - 1);
   assert.equal(stride, Math.round(stride));
   drawn.x.forEach((x, k) => {
@@ -55,7 +55,7 @@ async function isLoopOf(page, name, index) {
 async function isSurfaceOf(page, name, index) {
   const read = (id) => page.evaluate((id) => { const host = document.querySelector(id); return { spec: host.spec.series, paths: host.querySelectorAll("svg path[fill=none][stroke-width='1.8']").length, legend: host.querySelector(".legend").innerText, label: host.querySelector("svg[role=img]").getAttribute("aria-label") }; }, id);
   const rounded = (cell) => Number(Number(cell).toPrecision(6));
-  const file = table(`${here}/${name}/pressures/${index}.csv`);
+  const file = table(`${here}/${name}/cases/pressures/${index}.csv`);
   const instants = ["greatest load", "mean load falling", "least load", "mean load rising"];
   for (const [id, lines] of [["#profile", ["r", "x"]], ["#profile-y", ["y"]]]) {
     if (!(await page.locator(id).isVisible())) continue;
@@ -71,7 +71,7 @@ async function isSurfaceOf(page, name, index) {
       assert.ok(legend.includes(`${instant} = `) && label.includes(`${instant} = `));
     });
   }
-  const work = new Map(table(`${here}/${name}/work/${index}.csv`).map((row) => [rounded(row.radius_m ?? row.x_m), rounded(row.work_j_per_m2)]));
+  const work = new Map(table(`${here}/${name}/cases/work/${index}.csv`).map((row) => [rounded(row.radius_m ?? row.x_m), rounded(row.work_j_per_m2)]));
   const [drawn] = (await read("#work")).spec;
   assert.ok(drawn.x.length > 8);
   drawn.x.forEach((x, i) => assert.equal(drawn.y[i], work.get(x)));
@@ -242,7 +242,7 @@ test("a history shows its signals, profiles by time, and fields by a slider", ()
   const history = table(`${here}/history/history.csv`);
   const drawn = await page.evaluate(() => document.querySelector("#load").spec.series[0]);
   assert.deepEqual(drawn.y, history.map((row) => Number(row.load_n)));
-  const profile = table(`${here}/history/profiles/2.csv`);
+  const profile = table(`${here}/history/cases/profiles/2.csv`);
   await page.selectOption("#profile", "2");
   await page.click("#all-profiles");
   const shown = await page.evaluate(() => document.querySelector("#profile-pressure").spec.series);

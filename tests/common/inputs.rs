@@ -434,7 +434,7 @@ impl CheckpointFiles {
 
     /// The checkpoints that lie there now.
     fn wholes(&self) -> Vec<(PathBuf, Vec<u8>)> {
-        let folder = self.folder.path("checkpoints/0000");
+        let folder = self.folder.path("records/checkpoints/0000");
         let paths = fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());
         let files = paths.map(|path| (path.clone(), fs::read(path).unwrap()));
         let mut files: Vec<_> = files.collect();
@@ -501,7 +501,7 @@ impl Histories {
     }
 
     fn path(&self) -> PathBuf {
-        self.folder.path().join("checkpoints/history")
+        self.folder.path().join("records/checkpoints/history")
     }
 
     /// Goes on from what lies there, for so many steps.

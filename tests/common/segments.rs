@@ -41,7 +41,9 @@ impl Stored {
 fn paths(out: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(out.join("records"));
     let entries = entries.into_iter().flatten();
-    let mut paths: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
+    let paths = entries.map(|entry| entry.unwrap().path());
+    let is_log = |path: &PathBuf| path.extension().is_some_and(|ending| ending == log::ENDING);
+    let mut paths: Vec<_> = paths.filter(is_log).collect();
     paths.sort();
     paths
 }

@@ -84,10 +84,10 @@ fn a_file_that_grows_beyond_its_limit_is_an_error_and_not_the_end() {
     assert!(!run.contains("\"cases_found\": 0,"), "{run}");
     // Tables have room, the archive of all cycles has not: it is as large as each of its arrays once more.
     let report = ["report", "out", "--no-figures", "--quiet"];
-    let blocks = place.bytes("out/cycles.npz").len() / 512 - 8;
+    let blocks = place.bytes("out/cases/cycles.npz").len() / 512 - 8;
     let child = after(&format!("ulimit -f {blocks};"), &report, &place.path(""));
     let ended = child.wait_with_output().unwrap();
     let said = String::from_utf8(ended.stderr).unwrap();
     assert_eq!(ended.status.code(), Some(1), "{said}");
-    assert!(said.contains("cycles.npz") && said.lines().count() < 4);
+    assert!(said.contains("cases/cycles.npz") && said.lines().count() < 4);
 }

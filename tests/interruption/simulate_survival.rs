@@ -52,9 +52,9 @@ fn a_history_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
         let place = of(text);
         let run = place.done("simulate history.toml --quiet --out whole");
         assert_eq!(run.stderr, "");
-        assert!(!place.has("whole/checkpoints"));
+        assert!(!place.has("whole/records/checkpoints"));
         let out = place.path("out");
-        let checkpoints = out.join("checkpoints");
+        let checkpoints = out.join("records/checkpoints");
         for how in ["-KILL", "-TERM", "-KILL"] {
             let child = start(&place, &OFTEN);
             wait_for_progress(&checkpoints, newest(&checkpoints));
@@ -94,7 +94,7 @@ fn a_termination_is_heard_within_a_long_instant_and_leaves_a_checkpoint() {
     std::thread::sleep(Duration::from_secs(4));
     let took = stopped(child, "-TERM");
     assert!(took < Duration::from_secs(2), "{took:?}");
-    assert!(place.has("out/checkpoints/history"));
+    assert!(place.has("out/records/checkpoints/history"));
 }
 
 #[test]
@@ -103,7 +103,7 @@ fn a_damaged_checkpoint_is_named_and_not_used() {
     let out = place.path("out");
     place.done("simulate history.toml --quiet --out whole");
     let child = start(&place, &OFTEN);
-    let path = out.join("checkpoints/history");
+    let path = out.join("records/checkpoints/history");
     wait_for("no checkpoint was written", || path.exists());
     stopped(child, "-KILL");
     damage(&path);
@@ -112,7 +112,7 @@ fn a_damaged_checkpoint_is_named_and_not_used() {
         leave_half_a_file(&out.join(name));
     }
     let said = simulate(&place, "").ended(0).stderr;
-    let damaged = "checkpoints/history: it is damaged or torn";
+    let damaged = "records/checkpoints/history: it is damaged or torn";
     says(&said, &[damaged, "from its beginning"]);
     assert_same(&out, &place.path("whole"));
 }
@@ -122,7 +122,7 @@ fn a_changed_scenario_is_refused_and_its_checkpoint_stays() {
     let place = of(FLUID);
     let out = place.path("out");
     let child = start(&place, &OFTEN);
-    wait_for_progress(&out.join("checkpoints"), None);
+    wait_for_progress(&out.join("records/checkpoints"), None);
     stopped(child, "-TERM");
     let before = results(&out);
     let changed = "--set 'time.step=\"0.3 s\"'";

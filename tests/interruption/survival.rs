@@ -178,7 +178,7 @@ fn a_long_case_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
             }
         };
         let out = place.path("out");
-        let case = out.join("checkpoints/0000");
+        let case = out.join("records/checkpoints/0000");
         for how in ["-KILL", "-TERM"] {
             let often = ["--checkpoint-every", "0", "--threads", "1"];
             let child = start(&place, &often);
@@ -189,7 +189,7 @@ fn a_long_case_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
             assert_eq!(segments::count(&out), 0, "{name}: too quick");
         }
         sweep(&place, "--quiet").ended(0);
-        assert!(!out.join("checkpoints").exists());
+        assert!(!out.join("records/checkpoints").exists());
         assert_same(&out, &whole);
     }
 }
@@ -200,7 +200,7 @@ fn a_long_case_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
 fn a_clock_that_jumps_between_interruption_and_resumption_changes_nothing() {
     for (text, whole, what) in [
         (CHEAP, whole_cheap(), "records"),
-        (LONG, whole_long(), "checkpoints/0000"),
+        (LONG, whole_long(), "records/checkpoints/0000"),
     ] {
         let place = of(text);
         let out = place.path("out");
@@ -244,7 +244,9 @@ fn the_time_of_day_is_asked_for_stamps_alone() {
 fn a_damaged_checkpoint_is_passed_over() {
     let place = of(LONG);
     let child = start(&place, &["--checkpoint-every", "0"]);
-    let path = place.path("out").join("checkpoints/0000/00.finished");
+    let path = place
+        .path("out")
+        .join("records/checkpoints/0000/00.finished");
     wait_for("no checkpoint was written", || path.exists());
     stopped(child, "-KILL");
     damage(&path);
@@ -276,14 +278,14 @@ fn the_files_of_a_partial_report_of_a_large_sweep_do_not_outlast_it() {
     wait_for("no record was written", || out.join("records").exists());
     signal(&child, "-INT");
     if child.wait().unwrap().code() == Some(130) {
-        let chosen = |out: &Path| fs::read_dir(out.join("loops")).unwrap().count();
+        let chosen = |out: &Path| fs::read_dir(out.join("cases/loops")).unwrap().count();
         assert!(chosen(&out) > 0 && out.join("run.json").exists());
     }
     // A file of the user stays.
-    place.put("out/work/notes.txt", "mine");
+    place.put("out/cases/work/notes.txt", "mine");
     sweep(&place, "--quiet").ended(0);
-    assert_eq!(place.text("out/work/notes.txt"), "mine");
-    fs::remove_file(out.join("work/notes.txt")).unwrap();
+    assert_eq!(place.text("out/cases/work/notes.txt"), "mine");
+    fs::remove_file(out.join("cases/work/notes.txt")).unwrap();
     assert_same(&out, &place.path("whole"));
 }
 
@@ -409,7 +411,7 @@ fn shards_in_folders_of_their_own_merge_to_the_result_of_one_process() {
     for k in 1..=3 {
         let part = place.done(&format!("sweep sweep.toml --shard {k}/3 --out part-{k}"));
         part.says(&["4 of 4 cases are done", "merge"]);
-        assert!(place.has(&format!("part-{k}/run-{k}-of-3.json")));
+        assert!(place.has(&format!("part-{k}/records/run-{k}-of-3.json")));
     }
     let few = place.ends("merge part-1 part-3 --out out --quiet", 1);
     let missing = "4 of 12 cases are in none of the parts";
@@ -438,10 +440,10 @@ fn shards_in_one_folder_end_with_the_result_of_one_process() {
 #[test]
 fn tables_and_figures_are_drawn_again_from_records_alone() {
     let (place, out) = copy_of_cheap();
-    for name in "sweep.csv summary.json energy-loss.svg loops@2x.png".split(' ') {
+    for name in "sweep.csv summary.json figures/energy-loss.svg figures/loops@2x.png".split(' ') {
         fs::remove_file(out.join(name)).unwrap();
     }
-    fs::remove_dir_all(out.join("loops")).unwrap();
+    fs::remove_dir_all(out.join("cases/loops")).unwrap();
     place.done("report out").says(&["Peak: "]);
     assert_same(&out, &whole_cheap());
     // Without the losses that locate the peak everything else is drawn, and what the peak takes is said.
@@ -449,14 +451,14 @@ fn tables_and_figures_are_drawn_again_from_records_alone() {
     let (cases, peaks): (Vec<_>, Vec<_>) = records.into_iter().partition(Stored::is_of_sweep);
     assert!(!peaks.is_empty());
     segments::replace(&out, &cases);
-    fs::remove_file(out.join("energy-loss.svg")).unwrap();
+    fs::remove_file(out.join("figures/energy-loss.svg")).unwrap();
     let report = place.done("report out");
     assert!(!report.stdout.contains("nterrupted"), "{report:?}");
     let parts = ["Peak not located: losses near ", " have no record in "];
     report
         .says(&parts)
         .says(&["`contact-dma sweep FILE --out "]);
-    assert!(out.join("energy-loss.svg").exists());
+    assert!(out.join("figures/energy-loss.svg").exists());
     says(&place.text("out/summary.json"), &["\"interrupted\": false"]);
     // A record that is gone leaves a gap; nothing is solved for it.
     let without = [&cases[..5], &cases[6..], &peaks].concat();
@@ -497,9 +499,9 @@ fn pictures_and_run_json_say_where_they_come_from() {
     }
     let started = run["started"].as_str().unwrap();
     assert!(started.ends_with('Z') && started.len() == 20, "{started}");
-    let svg = place.text("out/energy-loss.svg");
+    let svg = place.text("out/figures/energy-loss.svg");
     assert!(svg.contains(&format!("sweep sha256 {hash}</metadata>")));
-    let png = place.bytes("out/loops@2x.png");
+    let png = place.bytes("out/figures/loops@2x.png");
     let text = format!("Source\0sweep sha256 {hash}");
     let mut windows = png.windows(text.len());
     assert!(windows.any(|window| window == text.as_bytes()));

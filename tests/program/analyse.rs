@@ -89,9 +89,9 @@ fn records_become_the_rows_of_a_sweep_by_ascending_frequency() {
         below!((loss - one.loss_j()).abs(), error.max(1e-4 * one.loss_j()));
         below!(error, 2e-3 * one.loss_j());
         below!((lag - one.lag).abs(), 3e-4);
-        let samples = place.table(&format!("out/loops/{k}.csv"));
+        let samples = place.table(&format!("out/cases/loops/{k}.csv"));
         assert_eq!(samples.numbers("load_n").len(), 201);
-        assert_eq!(place.table(&format!("out/cycles/{k}.csv")).len(), 12);
+        assert_eq!(place.table(&format!("out/cases/cycles/{k}.csv")).len(), 12);
     }
     assert_eq!(table.cells("status"), ["converged"; 3]);
     assert_eq!(place.json("out/summary.json")["cases"]["converged"], 3);
@@ -104,11 +104,16 @@ fn results_do_not_depend_on_threads_and_those_of_an_earlier_analysis_do_not_stay
         let run = place.done(&format!("{THREE} --threads {threads} --quiet --out {out}"));
         assert_eq!(run.stdout, "");
     }
-    for file in ["sweep.csv", "analysis.json", "loops/2.csv", "summary.json"] {
+    for file in [
+        "sweep.csv",
+        "records/analysis.json",
+        "cases/loops/2.csv",
+        "summary.json",
+    ] {
         place.are_same(&["one", "four"], file);
     }
     place.done("analyse loop-0.csv --threads 2 --quiet --out four");
-    assert!(place.has("four/loops/0.csv") && !place.has("four/loops/1.csv"));
+    assert!(place.has("four/cases/loops/0.csv") && !place.has("four/cases/loops/1.csv"));
 }
 
 #[test]
@@ -198,16 +203,17 @@ fn a_folder_of_an_analysis_is_drawn_again_and_no_folder_of_a_sweep_is_overwritte
     let table = "index,angular_frequency_rad_per_s,energy_loss_j\n0,6.0,1e-6\n1,7.0,1.5e-6\n";
     place.put("computed/sweep.csv", table);
     place.done(&format!("{THREE} --against computed --out out --quiet"));
-    for file in "loops.svg energy-loss.png cycles.svg index.html loops.caption.txt".split(' ') {
+    for file in "figures/loops.svg figures/energy-loss.png figures/cycles.svg index.html figures/loops.caption.txt".split(' ') {
         assert!(place.bytes(&format!("out/{file}")).len() > 50, "{file}");
     }
     // What was drawn beside the measured ones is drawn again, with nothing but the folder.
     fs::remove_dir_all(place.path("computed")).unwrap();
-    let read = || ["out/loops.svg", "out/energy-loss.svg"].map(|file| place.text(file));
+    let read =
+        || ["out/figures/loops.svg", "out/figures/energy-loss.svg"].map(|file| place.text(file));
     let before = read();
     let kept = "\"angular_rad_per_s\":7.0";
-    says(&place.text("out/analysis.json"), &[kept]);
-    fs::remove_file(place.path("out/loops.svg")).unwrap();
+    says(&place.text("out/records/analysis.json"), &[kept]);
+    fs::remove_file(place.path("out/figures/loops.svg")).unwrap();
     place.done("report out --quiet");
     assert_eq!(read(), before);
     place.put("computed/sweep.csv", table);

@@ -18,8 +18,8 @@ fn a_sweep_prints_its_table_and_leaves_every_file() {
         .says(&["Results in reports/small"]);
     place.has_all(
         "reports/small",
-        "sweep.csv summary.json resolved.toml energy-loss.csv energy-loss.svg energy-loss.png energy-loss@2x.png loops.csv \
-         loops.svg loops.png loops@2x.png loops/0.csv loops/2.csv pressures/1.csv work/1.csv cycles.npz",
+        "sweep.csv summary.json resolved.toml figures/energy-loss.csv figures/energy-loss.svg figures/energy-loss.png figures/energy-loss@2x.png figures/loops.csv \
+         figures/loops.svg figures/loops.png figures/loops@2x.png cases/loops/0.csv cases/loops/2.csv cases/pressures/1.csv cases/work/1.csv cases/cycles.npz",
     );
     let table = place.table("reports/small/sweep.csv");
     assert_eq!(table.cells("status"), ["converged"; 3]);
@@ -41,7 +41,7 @@ fn the_number_of_threads_does_not_change_a_bit() {
         let run = place.done(&run);
         assert_eq!(run.stdout + &run.stderr, "");
     }
-    for name in ["sweep.csv", "summary.json", "energy-loss.png"] {
+    for name in ["sweep.csv", "summary.json", "figures/energy-loss.png"] {
         place.are_same(&threads, name);
     }
 }
@@ -125,7 +125,10 @@ fn a_case_that_does_not_converge_has_no_loss_and_does_not_stop_the_others() {
     assert_eq!(table.number(2, "angular_frequency_rad_per_s"), 1.0);
     assert_eq!(table.found("energy_loss_j")[2], None);
     assert_eq!(table.cells("status")[2], "not-converged");
-    assert!(!place.has("reports/small/loops/2.csv") && place.has("reports/small/loops/1.csv"));
+    assert!(
+        !place.has("reports/small/cases/loops/2.csv")
+            && place.has("reports/small/cases/loops/1.csv")
+    );
 }
 
 #[test]
@@ -153,7 +156,7 @@ fn a_sweep_in_which_nothing_converges_still_ends_cleanly() {
     let run = place.run("sweep small.toml --set cycle.max_cycles=1 --set cycle.tolerance=1e-12");
     run.ended(3).says(&["no case converged"]);
     assert!(place.has("reports/small/summary.json"));
-    assert!(!place.has("reports/small/energy-loss.svg"));
+    assert!(!place.has("reports/small/figures/energy-loss.svg"));
 }
 
 #[test]
@@ -175,7 +178,7 @@ fn a_material_is_drawn_into_a_folder() {
     place.done("material show pmma --out out");
     place.has_all(
         "out",
-        "moduli.svg moduli.png moduli.csv relaxation.svg relaxation@2x.png",
+        "figures/moduli.svg figures/moduli.png figures/moduli.csv figures/relaxation.svg figures/relaxation@2x.png",
     );
     // Figure 1 of the paper: from 2491.44 MPa down to 1973.05 at 1000 s.
     let curve = place.table("out/relaxation.csv").rows;
@@ -226,7 +229,7 @@ fn a_sweep_file_may_come_from_standard_input() {
     run("sweep - --quiet --no-figures", &text).ended(0);
     assert!(place.has("reports/stdin/sweep.csv"));
     run("sweep - --quiet --out there", SMALL).ended(0);
-    assert!(place.has("there/energy-loss.svg"));
+    assert!(place.has("there/figures/energy-loss.svg"));
     let wrong = run("sweep -", &SMALL.replace("radius", "raduis")).ended(2);
     says(&wrong.stderr, &["--> standard input:", "`radius`"]);
     let wrong = run("simulate -", SMALL).ended(2);
@@ -247,7 +250,7 @@ fn tables_alone_are_written_where_no_figures_are_asked_for_and_drawn_elsewhere_l
     assert!(place.has("source/index.html"));
     place.done(&format!("{sweep} --no-figures"));
     // Of the earlier run nothing is left.
-    for name in ["index.html", "energy-loss.svg", "loops.csv"] {
+    for name in ["index.html", "figures/energy-loss.svg", "figures/loops.csv"] {
         assert!(!place.has(&format!("source/{name}")), "{name}");
     }
     let table = place.path("source/sweep.csv");
@@ -256,8 +259,8 @@ fn tables_alone_are_written_where_no_figures_are_asked_for_and_drawn_elsewhere_l
     let report = "report source --quiet --out drawn";
     place.done(&format!("{report} --set 'figures.formats=[\"svg\"]'"));
     assert_eq!((names("source"), modified()), (before, written));
-    assert!(place.has("drawn/index.html") && place.has("drawn/energy-loss.svg"));
-    assert!(!place.has("drawn/energy-loss.png") && !place.has("drawn/records"));
+    assert!(place.has("drawn/index.html") && place.has("drawn/figures/energy-loss.svg"));
+    assert!(!place.has("drawn/figures/energy-loss.png") && !place.has("drawn/records"));
     let is_same = || place.bytes("drawn/sweep.csv") == place.bytes("source/sweep.csv");
     assert!(is_same());
     says(&place.text("drawn/resolved.toml"), &["formats = [\"svg\"]"]);

@@ -105,7 +105,10 @@ fn what_was_not_compared_is_said_and_nothing_compared_is_no_agreement() {
         says(&text, &[part]);
         assert!(arguments != "a a" || !text.contains("not compared"));
     }
-    place.has_all("drawn", "comparison.svg comparison.png comparison.csv");
+    place.has_all(
+        "drawn",
+        "figures/comparison.svg figures/comparison.png comparison.csv",
+    );
 }
 
 #[test]

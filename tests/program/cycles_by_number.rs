@@ -20,7 +20,7 @@ fn the_second_cycle_of_every_frequency_is_a_result_and_says_what_it_is() {
     assert_eq!(summary["cases"]["transient"], 3);
     assert_eq!(summary["cases"]["converged"], 0);
     for (file, part) in [
-        ("loops.caption.txt", "Cycle 2 from the beginning"),
+        ("figures/loops.caption.txt", "Cycle 2 from the beginning"),
         // The resolved file gives the same plan again.
         ("resolved.toml", "at_cycle = 2"),
         ("index.html", "number 2 after the hold"),
@@ -56,13 +56,13 @@ fn a_history_has_a_table_of_its_cycles() {
         assert!(*loss > 0.0 && error > 0.0);
         below!(error, 0.05 * loss);
     }
-    assert!(place.has("out/cycle-losses.svg"));
+    assert!(place.has("out/figures/cycle-losses.svg"));
     assert!(place.text("out/index.html").contains("Cycle by cycle"));
     let json = simulate(&text, "--format json").json();
     assert_eq!(json["cycles"].as_array().unwrap().len(), 6);
     // A history without a sine takes them away again.
     simulate(&without_sines(&text), "--force");
-    assert!(!place.has("out/cycles.csv") && !place.has("out/cycle-losses.svg"));
+    assert!(!place.has("out/cycles.csv") && !place.has("out/figures/cycle-losses.svg"));
 }
 
 /// The same history with its sines as steps.

@@ -157,17 +157,23 @@ fn the_program_writes_revolved_fields_as_it_does_cells() {
     let simulate = "simulate fields.toml --quiet --force --out out";
     place.done(simulate);
     // 128 cells per side unless asked otherwise.
-    let read = || npy(&place.bytes("out/fields/0-pressure_pa.npy"));
+    let read = || npy(&place.bytes("out/cases/fields/0-pressure_pa.npy"));
     let (shape, pressure) = read();
     assert_eq!(shape, [128, 128]);
-    let spacing = place.table("out/fields/index.csv").number(0, "spacing_x_m");
+    let spacing = place
+        .table("out/cases/fields/index.csv")
+        .number(0, "spacing_x_m");
     let load_n = pressure.iter().sum::<f64>() * spacing * spacing;
     // The sum over 116 cells across the contact.
     assert!((load_n - 1.0).abs() < 1e-3, "{load_n}");
-    place.has_all("out/fields", "1.vti 1-gap_m.npy 1-displacement_m.npy");
-    assert!(place.has("out/pressure-map.svg"));
+    place.has_all("out/cases/fields", "1.vti 1-gap_m.npy 1-displacement_m.npy");
+    assert!(place.has("out/figures/pressure-map.svg"));
     // Profiles stay along the radius.
-    assert!(place.text("out/profiles/0.csv").starts_with("radius_m,"));
+    assert!(
+        place
+            .text("out/cases/profiles/0.csv")
+            .starts_with("radius_m,")
+    );
     says(&place.text("out/resolved.toml"), &["field_cells = 128"]);
     place.done(&format!("{simulate} --set output.field_cells=20"));
     assert_eq!(read().0, [20, 20]);
@@ -186,7 +192,7 @@ fn profiles_hold_pressure_gap_and_displacement_along_a_radius_or_lines_at_the_ti
         place.done(&format!(
             "simulate profiles.toml --quiet --set solver.cells=64 --set solver.engine={engine} --out {engine}"
         ));
-        let read = |name: &str| place.table(&format!("{engine}/profiles/{name}"));
+        let read = |name: &str| place.table(&format!("{engine}/cases/profiles/{name}"));
         let index = read("index.csv");
         assert_eq!(index.numbers("time_s"), [20.0, 0.0, 25.0]);
         // At the first moment the contact is elastic.

@@ -31,7 +31,7 @@ fn pixels(png: &[u8]) -> (u32, u32) {
 
 /// The files of the sweep.
 fn names(place: &Place) -> BTreeSet<String> {
-    let entries = fs::read_dir(place.path("out")).unwrap();
+    let entries = fs::read_dir(place.path("out/figures")).unwrap();
     let name = |entry: fs::DirEntry| entry.file_name().into_string().unwrap();
     entries.map(|entry| name(entry.unwrap())).collect()
 }
@@ -57,7 +57,7 @@ fn work(place: &Place) -> [u64; 2] {
 fn pictures_have_the_millimetres_and_pixels_asked_for_and_no_other_forms() {
     let place =
         swept("[figures]\ncolumn = \"one\"\nheight = \"60 mm\"\ndpi = 600\nfont_size = 7\n");
-    let svg = place.text("out/loops.svg");
+    let svg = place.text("out/figures/loops.svg");
     assert_eq!(root(&svg, "width"), "85mm");
     assert_eq!(root(&svg, "height"), "60mm");
     // 16 px of the drawing are 7 pt: a px is 7/16 of 25.4/72 mm.
@@ -66,10 +66,10 @@ fn pictures_have_the_millimetres_and_pixels_asked_for_and_no_other_forms() {
     let view: Vec<f64> = view.split(' ').map(|v| v.parse().unwrap()).collect();
     assert!((view[2] * px_mm - 85.0).abs() < 1e-3 && (view[3] * px_mm - 60.0).abs() < 1e-3);
     // mm times dpi over 25.4: 2007.9 and 1417.3.
-    assert_eq!(pixels(&place.bytes("out/loops.png")), (2008, 1417));
+    assert_eq!(pixels(&place.bytes("out/figures/loops.png")), (2008, 1417));
     assert!(!names(&place).iter().any(|name| name.ends_with("@2x.png")));
     // A map of the surface is as high as its lengths are, whatever is asked for.
-    let map = "out/dissipation-map.svg";
+    let map = "out/figures/dissipation-map.svg";
     assert_eq!(side(&place, map, "width"), "85mm");
     assert_ne!(side(&place, map, "height"), "60mm");
 }
@@ -79,7 +79,7 @@ fn only_the_formats_asked_for_are_there_even_after_others_were() {
     let place = swept("");
     place.has_all(
         "out",
-        "loops.svg loops.png loops@2x.png loops.csv loops.caption.txt",
+        "figures/loops.svg figures/loops.png figures/loops@2x.png figures/loops.csv figures/loops.caption.txt",
     );
     sweep_into(&place, "[figures]\nformats = [\"svg\"]\n");
     assert!(!names(&place).iter().any(|name| name.ends_with(".png")));
@@ -87,7 +87,7 @@ fn only_the_formats_asked_for_are_there_even_after_others_were() {
     sweep_into(&place, "[figures]\nformats = [\"png\"]\ndpi = 150\n");
     assert!(!names(&place).contains("loops.svg") && !names(&place).contains("loops@2x.png"));
     // 800 px at 96 to the inch.
-    assert_eq!(pixels(&place.bytes("out/loops.png")), (1250, 938));
+    assert_eq!(pixels(&place.bytes("out/figures/loops.png")), (1250, 938));
 }
 
 fn page_of(place: &Place, name: &str) -> (Vec<f64>, usize, String) {
@@ -111,7 +111,7 @@ fn page(pdf: &[u8]) -> (Vec<f64>, usize, String) {
 fn pdf_has_the_millimetres_asked_for_text_as_text_and_the_same_bytes_on_any_number_of_threads() {
     let place =
         swept("[figures]\ncolumn = \"one\"\nheight = \"60 mm\"\nformats = [\"pdf\", \"svg\"]\n");
-    let (sides, pages, text) = page(&place.bytes("out/loops.pdf"));
+    let (sides, pages, text) = page(&place.bytes("out/figures/loops.pdf"));
     let points = |mm: f64| mm / 25.4 * 72.0;
     // Points are written to single precision.
     assert!((sides[0] - points(85.0)).abs() < 1e-3 && (sides[1] - points(60.0)).abs() < 1e-3);
@@ -129,7 +129,7 @@ fn pdf_has_the_millimetres_asked_for_text_as_text_and_the_same_bytes_on_any_numb
     assert_eq!(pdfs().len(), ending(".caption.txt").len());
     place.done("sweep sweep.toml --quiet --threads 1 --out again");
     for name in pdfs() {
-        place.are_same(&["out", "again"], &name);
+        place.are_same(&["out/figures", "again/figures"], &name);
     }
     // Another wish takes them away again.
     place.done("report out --quiet --set 'figures.formats=[\"svg\"]'");
@@ -166,7 +166,7 @@ fn another_table_is_the_same_sweep_and_computes_nothing_again() {
     assert_eq!(place.text("out/sweep.csv"), table);
     let resolved = place.text("out/resolved.toml");
     assert!(resolved.ends_with("\n[figures]\nwidth = \"0.12 m\"\n"));
-    assert_eq!(side(&place, "out/loops.svg", "width"), "120mm");
+    assert_eq!(side(&place, "out/figures/loops.svg", "width"), "120mm");
     // The resolved file is a sweep file with the same hash.
     place.done("sweep out/resolved.toml --quiet --out again");
     assert_eq!(hash("again"), plain);
@@ -181,7 +181,7 @@ fn another_table_is_the_same_sweep_and_computes_nothing_again() {
 #[test]
 fn report_draws_again_as_the_folder_says_or_as_asked() {
     let place = swept("[figures]\nwidth = \"120 mm\"\n");
-    fs::remove_file(place.path("out/loops.svg")).unwrap();
+    fs::remove_file(place.path("out/figures/loops.svg")).unwrap();
     for (set, width) in [
         ("", "120mm"),
         (
@@ -192,7 +192,7 @@ fn report_draws_again_as_the_folder_says_or_as_asked() {
         ("", "90mm"),
     ] {
         place.done(&format!("report --quiet out {set}"));
-        assert_eq!(side(&place, "out/loops.svg", "width"), width);
+        assert_eq!(side(&place, "out/figures/loops.svg", "width"), width);
     }
     let resolved = place.text("out/resolved.toml");
     let told = place.refused("report --quiet out --set 'drive.amplitude=4 N'");
@@ -205,10 +205,10 @@ fn the_loops_drawn_are_those_nearest_to_the_frequencies_asked_for() {
     // The sweep has 1e-3 times powers of the square root of ten.
     let loops = "[\"0.9 rad/s\", \"0.0011 rad/s\", \"0.0009999999999 rad/s\"]";
     let place = swept(&format!("[figures]\nloops = {loops}\n"));
-    let table = place.table("out/loops.csv");
+    let table = place.table("out/figures/loops.csv");
     let drawn: BTreeSet<&str> = table.rows.iter().map(|row| &*row[0]).collect();
     assert_eq!(drawn, BTreeSet::from(["1e-3", "1e0"]));
-    let caption = place.text("out/loops.caption.txt");
+    let caption = place.text("out/figures/loops.caption.txt");
     assert!(caption.contains("ω = 10⁻³ rad/s and"));
 }
 
@@ -216,22 +216,22 @@ fn the_loops_drawn_are_those_nearest_to_the_frequencies_asked_for() {
 fn normalised_axes_say_so_and_the_caption_gives_the_units() {
     let place = swept("[figures]\naxes = \"normalised\"\n");
     let loops = "load W / W₀ against approach δ / δ₀";
-    assert_eq!(axes(&place, "out/loops.svg"), loops);
+    assert_eq!(axes(&place, "out/figures/loops.svg"), loops);
     let losses = "energy loss per cycle / W₀δ₀ against angular frequency ω / τ⁻¹";
-    assert_eq!(axes(&place, "out/energy-loss.svg"), losses);
-    let caption = place.text("out/energy-loss.caption.txt");
+    assert_eq!(axes(&place, "out/figures/energy-loss.svg"), losses);
+    let caption = place.text("out/figures/energy-loss.caption.txt");
     says(&caption, &["elastic contact", "mean load"]);
     says(&caption, &["W₀ = 10.00 N", "τ = 133.9 s"]);
     // Data stay in SI units.
-    let data = place.text("out/loops.csv");
+    let data = place.text("out/figures/loops.csv");
     assert!(data.starts_with("angular_frequency_rad_per_s,approach_m,load_n\n"));
 }
 
 #[test]
 fn captions_hold_the_numbers_of_the_data_and_are_the_description_of_the_picture() {
     let place = swept("");
-    let caption = place.text("out/energy-loss.caption.txt");
-    let table = place.table("out/energy-loss.csv");
+    let caption = place.text("out/figures/energy-loss.caption.txt");
+    let table = place.table("out/figures/energy-loss.csv");
     // Every point of the curve is a case of the sweep.
     let sweep = place.table("out/sweep.csv");
     for column in [
@@ -274,9 +274,9 @@ fn captions_hold_the_numbers_of_the_data_and_are_the_description_of_the_picture(
         let Some(figure) = name.strip_suffix(".caption.txt") else {
             continue;
         };
-        let caption = place.text(&format!("out/{name}"));
+        let caption = place.text(&format!("out/figures/{name}"));
         assert_eq!(caption.lines().count(), 1, "{name}");
-        let svg = place.text(&format!("out/{figure}.svg"));
+        let svg = place.text(&format!("out/figures/{figure}.svg"));
         let description = between(&svg, "<desc>", "</desc>").replace("&quot;", "\"");
         assert_eq!(description, caption.trim_end(), "{name}");
     }
@@ -288,15 +288,18 @@ fn histories_materials_and_comparisons_have_captions_too() {
     let example = concat!(env!("CARGO_MANIFEST_DIR"), "/sweeps/zener-unloading.toml");
     let set = "--set figures.column=two --set figures.axes=normalised";
     place.done(&format!("simulate '{example}' --quiet {set} --out history"));
-    assert_eq!(side(&place, "history/history.svg", "width"), "180mm");
-    assert!(axes(&place, "history/history.svg").contains("load W / W₀ against"));
+    assert_eq!(
+        side(&place, "history/figures/history.svg", "width"),
+        "180mm"
+    );
+    assert!(axes(&place, "history/figures/history.svg").contains("load W / W₀ against"));
     place.done("material show pmma --out material");
     place.done("compare out out --out compared");
     for (figure, parts) in [
-        ("history/history", &["largest load", "springs"][..]),
-        ("material/moduli", &["PMMA"]),
-        ("material/relaxation", &["1000 s"]),
-        ("compared/comparison", &["7 cases"]),
+        ("history/figures/history", &["largest load", "springs"][..]),
+        ("material/figures/moduli", &["PMMA"]),
+        ("material/figures/relaxation", &["1000 s"]),
+        ("compared/figures/comparison", &["7 cases"]),
     ] {
         says(&place.text(&format!("{figure}.caption.txt")), parts);
     }
@@ -368,7 +371,7 @@ fn a_font_is_that_of_a_file_beside_the_sweep_or_refused_with_what_to_write() {
     );
     let table = |font: &str| format!("[figures]\nformats = [\"pdf\"]\nfont = \"{font}\"\n");
     sweep_into(&place, &table("my.ttf"));
-    let (_, _, pdf) = page_of(&place, "out/energy-loss.pdf");
+    let (_, _, pdf) = page_of(&place, "out/figures/energy-loss.pdf");
     assert!(pdf.contains("Tinos"));
     // Where the folder is does not matter to what it says.
     let kept = place.text("out/resolved.toml");
@@ -416,8 +419,11 @@ fn the_smallest_figures_that_are_allowed_can_be_drawn() {
         "sweep sweep.toml --quiet --out out --set 'sweep.drive.amplitude=[1.0, 3.0, 9.0]' --set 'figures.width=57 mm' \
          --set 'figures.height=43 mm' --set 'figures.formats=[\"svg\"]'",
     );
-    assert_eq!(side(&place, "out/energy-loss.svg", "width"), "57mm");
-    assert_eq!(side(&place, "out/cole-cole.svg", "height"), "43mm");
+    assert_eq!(side(&place, "out/figures/energy-loss.svg", "width"), "57mm");
+    assert_eq!(side(&place, "out/figures/cole-cole.svg", "height"), "43mm");
     // Two panels with a legend take more.
-    assert_ne!(side(&place, "out/moduli-error.svg", "height"), "43mm");
+    assert_ne!(
+        side(&place, "out/figures/moduli-error.svg", "height"),
+        "43mm"
+    );
 }

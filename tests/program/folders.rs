@@ -57,8 +57,8 @@ fn into(command: &str, out: &str, more: &str) -> String {
 }
 
 /// Files of a user, in every folder that the program uses, under names that it uses and under others.
-const FOREIGN: &str = "notes.txt checkpoints/deep/model.pt records/mine.sqlite loops/raw.csv pressures/notes.txt work/notes.txt \
-                       peaks/everest.txt profiles/me.jpg fields/corn.csv cycles/tandem.txt data/table.csv figures/mine.svg";
+const FOREIGN: &str = "notes.txt records/checkpoints/deep/model.pt records/mine.sqlite cases/loops/raw.csv cases/work/notes.txt \
+                       cases/peaks/everest.txt profiles/me.jpg fields/corn.csv loops/0.csv loops.csv data/table.csv figures/mine.svg";
 
 #[test]
 fn a_folder_of_somebody_else_is_refused_and_with_force_added_to_and_left_as_it_was() {
@@ -96,12 +96,59 @@ fn files_of_somebody_else_with_the_names_of_results_are_refused_even_with_force(
         }
     }
     // Those of which a computation knows only later whether it writes them.
-    let later = "work/0.csv loops.csv peaks.caption.txt resolved.toml records/a.segment";
+    let later = "cases/work/0.csv resolved.toml records/a.segment";
     for name in later.split(' ') {
         let out = name.replace('/', "-");
         place.put(&format!("{out}/{name}"), "mine");
         refused(&place, &into(COMMANDS[0], &out, "--force"), &out, &[name]);
     }
+    // Which figures there are it knows last. What is computed by then is kept.
+    place.put("late/figures/loops.svg", "mine");
+    let late = into(COMMANDS[0], "late", "--force");
+    says(&place.ends(&late, 2), &["figures/loops.svg"]);
+    assert_eq!(place.text("late/figures/loops.svg"), "mine");
+    fs::remove_file(place.path("late/figures/loops.svg")).unwrap();
+    let said = place.done(&into(COMMANDS[0], "late", "")).stderr;
+    says(&said, &["3 of 3 cases were already done"]);
+}
+
+/// Names that a file manager shows.
+fn entries(place: &Place, folder: &str) -> Vec<String> {
+    let entries = fs::read_dir(place.path(folder)).unwrap();
+    let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let mut names: Vec<String> = names.filter(|name| !name.starts_with('.')).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn the_top_of_a_folder_has_what_is_opened_first_and_little_else() {
+    let place = inputs();
+    for (k, command) in COMMANDS.iter().enumerate() {
+        let out = format!("out-{k}");
+        place.done(&into(command, &out, ""));
+        let found = entries(&place, &out);
+        assert!(found.len() <= 10, "{command}: {found:?}");
+        for name in ["figures", "index.html", "run.json"] {
+            assert!(found.iter().any(|own| own == name), "{command}: {name}");
+        }
+        let pictures = |name: &str| {
+            [".svg", ".png", ".caption.txt"]
+                .iter()
+                .any(|end| name.ends_with(end))
+        };
+        for name in listed(&place, &out) {
+            assert_eq!(
+                pictures(&name),
+                name.starts_with("figures/") && pictures(&name),
+                "{name}"
+            );
+        }
+    }
+    let of_sweep = "cases figures index.html records resolved.toml run.json summary.json sweep.csv";
+    assert_eq!(entries(&place, "out-0").join(" "), of_sweep);
+    let of_history = "cases figures history.csv index.html resolved.toml run.json summary.json";
+    assert_eq!(entries(&place, "out-1").join(" "), of_history);
 }
 
 #[test]
@@ -123,10 +170,10 @@ fn a_folder_belongs_to_one_command_and_another_one_is_refused() {
     }
     // Forced, one takes the place of the other, of which nothing is left but what is somebody else's.
     for (k, out) in [(5, "own-0"), (0, "own-4"), (6, "own-7"), (8, "own-1")] {
-        place.put(&format!("{out}/work/notes.txt"), "mine");
+        place.put(&format!("{out}/cases/work/notes.txt"), "mine");
         place.done(&into(COMMANDS[k], out, "--force"));
-        assert_eq!(place.text(&format!("{out}/work/notes.txt")), "mine");
-        fs::remove_file(place.path(out).join("work/notes.txt")).unwrap();
+        assert_eq!(place.text(&format!("{out}/cases/work/notes.txt")), "mine");
+        fs::remove_file(place.path(out).join("cases/work/notes.txt")).unwrap();
         is_as_listed(&place, out);
     }
 }
@@ -151,15 +198,15 @@ fn no_command_writes_over_a_file_that_it_reads() {
     let identify = identify.replace("cycles.csv", "fit.csv");
     let sweep = plan.replace(
         "library = \"pmma\"",
-        "poisson_ratio = 0.3\n[material.table]\nfile = \"loops.csv\"\nquantity = \"creep\"\nmodulus = \"longitudinal\"",
+        "poisson_ratio = 0.3\n[material.table]\nfile = \"cases/loops/1.csv\"\nquantity = \"creep\"\nmodulus = \"longitudinal\"",
     );
-    let fit = &format!("material fit fit.csv {FIT}");
+    let fit = &format!("material fit prony.csv {FIT}");
     for (name, text) in [
-        ("a/loops/0.csv", &raw),
-        ("b/fit.csv", &creep),
+        ("a/cases/loops/0.csv", &raw),
+        ("b/prony.csv", &creep),
         ("c/fit.csv", &table),
         ("c/id.toml", &identify),
-        ("d/loops.csv", &creep),
+        ("d/cases/loops/1.csv", &creep),
         ("d/s.toml", &sweep),
         ("e/resolved.toml", &plan),
     ] {
@@ -167,10 +214,10 @@ fn no_command_writes_over_a_file_that_it_reads() {
     }
     // A folder, the file in it that is read, the command.
     for (folder, named, command) in [
-        ("a", "loops/0.csv", "analyse loops/0.csv"),
-        ("b", "fit.csv", fit),
+        ("a", "cases/loops/0.csv", "analyse cases/loops/0.csv"),
+        ("b", "prony.csv", fit),
         ("c", "fit.csv", "identify id.toml"),
-        ("d", "loops.csv", "sweep s.toml"),
+        ("d", "cases/loops/1.csv", "sweep s.toml"),
         ("e", "resolved.toml", "sweep resolved.toml"),
     ] {
         let before = place.files(folder);
@@ -184,8 +231,8 @@ fn no_command_writes_over_a_file_that_it_reads() {
     }
     // In a folder of its own too: the table that an earlier fit has written.
     place.done(&format!("material fit creep.csv {FIT} --out fitted"));
-    place.put("fitted/fit.csv", creep);
-    let fit = format!("material fit fitted/fit.csv {FIT} --out fitted");
+    place.put("fitted/figures/fit.csv", creep);
+    let fit = format!("material fit fitted/figures/fit.csv {FIT} --out fitted");
     refused(&place, &fit, "fitted", &[]);
 }
 
@@ -194,19 +241,22 @@ fn what_an_earlier_run_showed_and_this_one_does_not_is_removed() {
     let place = inputs();
     let own = |name: &str| place.path("own").join(name);
     place.done("sweep small.toml --out own");
-    place.put("own/work/notes.txt", "mine");
-    assert!(own("loops.svg").exists());
+    place.put("own/cases/work/notes.txt", "mine");
+    assert!(own("figures/loops.svg").exists());
     place.done("report own --no-figures");
-    assert!(!own("loops.svg").exists() && !own("index.html").exists());
-    assert!(own("loops/0.csv").exists() && own("work/notes.txt").exists());
+    assert!(!own("figures/loops.svg").exists() && !own("index.html").exists());
+    assert!(own("cases/loops/0.csv").exists() && own("cases/work/notes.txt").exists());
     // Of a listed file that no report writes any more, as those of cases that a partial report has chosen.
     let run = fs::read_to_string(own("run.json")).unwrap();
-    let run = run.replace("\"loops/0.csv\"", "\"loops/0.csv\",\n    \"loops/202.csv\"");
+    let run = run.replace(
+        "\"cases/loops/0.csv\"",
+        "\"cases/loops/0.csv\",\n    \"cases/loops/202.csv\"",
+    );
     fs::write(own("run.json"), run).unwrap();
-    fs::write(own("loops/202.csv"), "").unwrap();
-    fs::write(own("loops/203.csv"), "mine").unwrap();
+    fs::write(own("cases/loops/202.csv"), "").unwrap();
+    fs::write(own("cases/loops/203.csv"), "mine").unwrap();
     place.done("report own");
-    assert!(!own("loops/202.csv").exists() && own("loops/203.csv").exists());
+    assert!(!own("cases/loops/202.csv").exists() && own("cases/loops/203.csv").exists());
     // Another fit in the same folder.
     let fit = "--modulus longitudinal --poisson-ratio 0.4 --out fits";
     let of_dynamic = format!("material fit dma.csv --quantity dynamic {fit}");

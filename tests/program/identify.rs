@@ -62,7 +62,7 @@ fn the_solid_of_the_example_is_found_and_its_block_is_one_of_a_sweep() {
     assert_eq!(summary["errors"], "given");
     assert_eq!(summary["unknowns"][0]["name"], "g_inf");
     assert_eq!(summary["moduli"].as_array().unwrap().len(), 12);
-    let files = "moduli.svg moduli.png data-and-model.svg residuals.svg index.html fit.csv";
+    let files = "figures/moduli.svg figures/moduli.png figures/data-and-model.svg figures/residuals.svg index.html fit.csv";
     place.has_all("found", files);
     let block = place.text("found/material.toml");
     let rest = FILE.split_once("[indenter]").unwrap().1;
@@ -199,7 +199,7 @@ fn a_force_curve_whose_model_leaves_the_surface_before_the_data_is_drawn() {
     place.done("identify solid.toml --out found");
     let note = "which a logarithmic axis does not show";
     says(&place.text("found/index.html"), &[note]);
-    assert!(place.has("found/data-and-model.svg"));
+    assert!(place.has("found/figures/data-and-model.svg"));
 }
 
 #[test]

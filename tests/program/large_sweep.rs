@@ -19,7 +19,7 @@ fn profiles_of_cases_on_different_grids_are_padded_each_by_itself() {
     // Two summits in a row along x, and in one along y: on many cells along x, and on few.
     let place = Place::lent("rows.toml");
     place.done("sweep rows.toml --no-figures --out out");
-    let bytes = place.bytes("out/cycles.npz");
+    let bytes = place.bytes("out/cases/cycles.npz");
     let (shape, pressures) = array(&bytes, "profile_pressure_pa");
     assert_eq!(shape, [2, 4, 32]);
     let (shape, times) = array(&bytes, "profile_time_s");
@@ -50,13 +50,17 @@ fn page_and_pictures_stay_small_where_the_curves_have_many_cases() {
     let bytes = |name: &str| place.bytes(&format!("out/{name}")).len();
     assert!(bytes("index.html") < 3_000_000, "{}", bytes("index.html"));
     // A symbol or a dot for every case takes ten times as much.
-    for name in ["energy-loss.svg", "loss-map.svg", "harmonic-2-map.svg"] {
+    for name in [
+        "figures/energy-loss.svg",
+        "figures/loss-map.svg",
+        "figures/harmonic-2-map.svg",
+    ] {
         assert!(bytes(name) < 500_000, "{name}: {}", bytes(name));
     }
     assert_eq!(place.table("out/sweep.csv").len(), 13 * 800);
     // What is told of the cases is told of all, whatever the page shows of them.
     says(&place.text("out/index.html"), &["of 10400 cases, ω = "]);
-    let told = place.text("out/energy-loss.caption.txt");
+    let told = place.text("out/figures/energy-loss.caption.txt");
     says(&told, &["symbols at some"]);
 }
 
@@ -69,18 +73,18 @@ fn a_large_sweep_leaves_few_files_and_all_its_cycles_where_they_are_asked_for() 
     assert_eq!(table.len(), 220);
     let count = place.files("out").len();
     assert!(count < 100, "{count}");
-    assert!(!place.has("out/cycles.npz"));
+    assert!(!place.has("out/cases/cycles.npz"));
     // Tables of the cycles that the figures show.
-    let loops = place.files("out/loops").len();
+    let loops = place.files("out/cases/loops").len();
     assert!((2..=6).contains(&loops), "{loops}");
     let page = place.bytes("out/index.html");
     assert!(page.len() < 3_000_000, "{}", page.len());
     // Drawn again from the records, everything is the same, and the cycles are written on demand.
-    let figure = place.bytes("out/loops.svg");
+    let figure = place.bytes("out/figures/loops.svg");
     place.done("report --quiet out --cycles");
-    assert!(place.bytes("out/loops.svg") == figure);
+    assert!(place.bytes("out/figures/loops.svg") == figure);
     assert!(place.bytes("out/index.html") == page);
-    let bytes = place.bytes("out/cycles.npz");
+    let bytes = place.bytes("out/cases/cycles.npz");
     let (shape, losses) = array(&bytes, "energy_loss_j");
     assert_eq!(shape, [220]);
     assert_eq!(losses, table);

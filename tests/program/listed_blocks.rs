@@ -140,10 +140,10 @@ fn tables_figures_and_comparisons_go_by_the_names() {
     }
     let table = place.table("one/sweep.csv");
     assert_eq!(table.cells("material"), [pmma.0, pmma.0, dry.0, dry.0]);
-    let caption = place.text("one/energy-loss.caption.txt");
+    let caption = place.text("one/figures/energy-loss.caption.txt");
     says(&caption, &["2 curves, one per material"]);
     // Names have no order to draw along.
-    assert!(!place.has("one/loss-map.svg") && !place.has("one/peaks.svg"));
+    assert!(!place.has("one/figures/loss-map.svg") && !place.has("one/figures/peaks.svg"));
     let same = place.done("compare one other");
     same.says(&["4 cases in both results"]);
     let differs = place.run("compare one less").ended(4);

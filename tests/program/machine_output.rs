@@ -348,10 +348,13 @@ fn the_unit_of_the_frequencies_asked_for_comes_first_in_every_output() {
     assert!(columns.starts_with("frequency_hz,angular_frequency_rad_per_s,drive_mean,"));
     assert!(rows.next().unwrap().starts_with("1e-3,6.283"), "{table}");
     for name in ["energy-loss", "loops", "dissipation", "moduli", "cole-cole"] {
-        let columns = place.table(&format!("out/{name}.csv")).columns.join(",");
+        let columns = place
+            .table(&format!("out/figures/{name}.csv"))
+            .columns
+            .join(",");
         says(&columns, &["frequency_hz,angular_frequency_rad_per_s"]);
     }
-    let caption = read("energy-loss.caption.txt");
+    let caption = read("figures/energy-loss.caption.txt");
     let parts = ["over frequency f: ", "at f = (1.3", " × 10⁻³ Hz"];
     says(&caption, &parts);
     assert!(!caption.contains("rad/s"), "{caption}");

@@ -42,6 +42,7 @@ mod listed_blocks;
 mod machine_output;
 mod measured_material;
 mod names_and_figures;
+mod older_folders;
 mod page;
 mod paths;
 mod periodic;

@@ -33,7 +33,7 @@ fn a_figure_that_cannot_be_drawn_is_a_warning_beside_a_finished_history() {
     place.lend("strip.toml");
     let run = place.done(&format!("simulate strip.toml --out out {SVG}"));
     run.says(&["no figure pressure-map"]);
-    for name in ["history.csv", "index.html", "history.svg"] {
+    for name in ["history.csv", "index.html", "figures/history.svg"] {
         assert!(place.has(&format!("out/{name}")), "{name}");
     }
 }
@@ -47,7 +47,7 @@ fn an_angle_is_told_in_degrees_everywhere() {
     let printed = place
         .done(&format!("sweep angle.toml --out out {SVG}"))
         .stdout;
-    let caption = place.text("out/energy-loss.caption.txt");
+    let caption = place.text("out/figures/energy-loss.caption.txt");
     assert!(printed.contains("phase 10°"), "{printed}");
     assert!(caption.contains("-30° to 10°"), "{caption}");
     assert!(!(printed + &caption).contains("0.5236"));

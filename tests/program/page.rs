@@ -50,7 +50,7 @@ fn a_page_holds_the_table_the_cycles_and_the_sweep_file_of_its_folder() {
     assert_eq!(data["peaks"], summary["peaks"]);
     assert!(page.contains(summary["sweep_hash"].as_str().unwrap()));
     for case in data["cases"].as_array().unwrap() {
-        let samples = place.table(&format!("out/loops/{}.csv", case["index"]));
+        let samples = place.table(&format!("out/cases/loops/{}.csv", case["index"]));
         let columns = "time_s load_n approach_m contact_radius_m peak_pressure_pa";
         for name in columns.split(' ') {
             // 200 steps a cycle: every second sample is on the page.
@@ -89,7 +89,7 @@ fn rounded(cell: &str) -> f64 {
 fn holds_the_surface(place: &Place, case: &Value) {
     let rows = |name: &str| {
         place
-            .table(&format!("out/{name}/{}.csv", case["index"]))
+            .table(&format!("out/cases/{name}/{}.csv", case["index"]))
             .rows
     };
     let pressures = rows("pressures");

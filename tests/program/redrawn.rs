@@ -70,10 +70,14 @@ fn what_is_drawn_again_is_the_same_to_the_byte_and_another_size_is_another_pictu
         for name in &drawn {
             fs::remove_file(place.path(&format!("{out}/{name}"))).unwrap();
         }
-        place.put(&format!("{out}/mine.svg"), "mine");
+        place.put(&format!("{out}/figures/mine.svg"), "mine");
         place.done(&format!("report {out}"));
         let mut after = files(&place, &out);
-        assert_eq!(after.remove("mine.svg").unwrap(), b"mine", "{command}");
+        assert_eq!(
+            after.remove("figures/mine.svg").unwrap(),
+            b"mine",
+            "{command}"
+        );
         assert!(after.keys().eq(before.keys()), "{command}");
         for (name, bytes) in &before {
             assert!(after[name] == *bytes, "{command}: {name}");
@@ -87,19 +91,29 @@ fn what_is_drawn_again_is_the_same_to_the_byte_and_another_size_is_another_pictu
         let look = "--set figures.column=one --set 'figures.formats=[\"svg\", \"pdf\"]'";
         place.done(&format!("report {out} {look} --quiet"));
         place.done(&format!("report {out} --quiet"));
-        let svg = place.text(&format!("{out}/{picture}.svg"));
+        let svg = place.text(&format!("{out}/figures/{picture}.svg"));
         assert!(svg.contains("width=\"85mm\""), "{command}: {}", &svg[..200]);
-        assert!(place.has(&format!("{out}/{picture}.pdf")), "{command}");
-        assert!(!place.has(&format!("{out}/{picture}.png")), "{command}");
+        assert!(
+            place.has(&format!("{out}/figures/{picture}.pdf")),
+            "{command}"
+        );
+        assert!(
+            !place.has(&format!("{out}/figures/{picture}.png")),
+            "{command}"
+        );
         // Tables stay without figures, and from tables alone there are figures again.
         place.done(&format!("report {out} --no-figures --quiet"));
         let left = files(&place, &out).into_keys();
         let left: Vec<_> = left.filter(|name| is_picture(name)).collect();
-        assert_eq!(left, ["mine.svg"], "{command}");
+        assert_eq!(left, ["figures/mine.svg"], "{command}");
         place.done(&format!("report {out} --quiet"));
-        let again = place.text(&format!("{out}/{picture}.svg"));
+        let again = place.text(&format!("{out}/figures/{picture}.svg"));
         assert_eq!(again, svg, "{command}");
-        assert_eq!(place.text(&format!("{out}/mine.svg")), "mine", "{command}");
+        assert_eq!(
+            place.text(&format!("{out}/figures/mine.svg")),
+            "mine",
+            "{command}"
+        );
     }
 }
 
@@ -184,7 +198,7 @@ fn a_damaged_table_is_named_with_its_line_and_nothing_is_written() {
 fn a_damaged_file_of_figures_is_refused_and_no_file_of_others_is_written_over() {
     let place = Place::new();
     place.done("material show pmma --out out");
-    let whole = place.text("out/figures.json");
+    let whole = place.text("out/records/figures.json");
     let no_json = "line 1 column";
     for (words, others, part) in [
         (&whole[whole.len() / 2..], "", no_json),
@@ -206,24 +220,27 @@ fn a_damaged_file_of_figures_is_refused_and_no_file_of_others_is_written_over() 
     ] {
         let damaged = whole.replacen(words, others, 1);
         assert_ne!(damaged, whole, "{part}");
-        place.put("out/figures.json", &damaged);
+        place.put("out/records/figures.json", &damaged);
         refused(&place, "", &["figures.json", part]);
     }
     // What cannot be drawn is left out with the reason, and stays in the file.
     let points = "\"points\":[[";
     let hostile = format!("{points}1e308,-1e308],[-1e308,1e308],[");
-    place.put("out/figures.json", whole.replacen(points, &hostile, 1));
+    place.put(
+        "out/records/figures.json",
+        whole.replacen(points, &hostile, 1),
+    );
     let said = place.ends("report out", 0);
     says(&said, &["warning: no figure moduli"]);
-    assert!(!place.has("out/moduli.svg") && place.has("out/relaxation.svg"));
+    assert!(!place.has("out/figures/moduli.svg") && place.has("out/figures/relaxation.svg"));
     // A figure that has the name of somebody's file.
     let mine = whole.replacen("\"name\":\"moduli\"", "\"name\":\"mine\"", 1);
-    place.put("out/figures.json", mine);
-    place.put("out/mine.svg", "mine");
+    place.put("out/records/figures.json", mine);
+    place.put("out/figures/mine.svg", "mine");
     refused(&place, "", &["mine.svg"]);
-    assert_eq!(place.text("out/mine.svg"), "mine");
+    assert_eq!(place.text("out/figures/mine.svg"), "mine");
     // Without the file it is said how figures are made.
-    fs::remove_file(place.path("out/figures.json")).unwrap();
+    fs::remove_file(place.path("out/records/figures.json")).unwrap();
     let made = "material show MATERIAL --out out";
     refused(&place, "", &["figures.json", made]);
     refused(&place, "--set figures.axes=normalised", &["figures.json"]);

@@ -109,7 +109,8 @@ fn one_figure_alone_is_the_same_figure() {
     let place = Place::new();
     let run = place.done("reproduce --figure 1 --threads 1 --out .");
     run.says(&["1 figures: 7 numbers of the paper (7 agree)"]);
-    let figure = ["caption.txt", "csv", "png", "svg"].map(|ending| format!("figure-01.{ending}"));
+    let figure =
+        ["caption.txt", "csv", "png", "svg"].map(|ending| format!("figures/figure-01.{ending}"));
     let rest = ["README.md", "claims.csv", "index.html", "run.json"].map(str::to_owned);
     let expected = figure.iter().chain(&rest).cloned().collect();
     assert_eq!(names(&place.path("")), expected);
@@ -123,7 +124,7 @@ fn one_figure_alone_is_the_same_figure() {
 fn the_page_shows_its_figures_in_whatever_form_they_are_written() {
     let place = Place::new();
     place.done("reproduce --figure 1 --quiet --out . --set 'figures.formats=[\"pdf\"]'");
-    assert!(place.has("figure-01.pdf") && !place.has("figure-01.svg"));
+    assert!(place.has("figures/figure-01.pdf") && !place.has("figures/figure-01.svg"));
     assert!(place.text("index.html").contains("<svg"));
 }
 

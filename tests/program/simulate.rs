@@ -248,7 +248,7 @@ fn an_indenter_whose_contact_is_a_ring_is_solved_on_the_half_space() {
     let run = "simulate ring.toml --set solver.cells=48 --out out";
     // Left to itself the program takes the half-space engine. The middle stays out of contact.
     place.done(run);
-    let profile = place.table("out/profiles/0.csv");
+    let profile = place.table("out/cases/profiles/0.csv");
     let mut largest = (0.0, 0.0);
     for row in 0..profile.len() {
         let [x_m, pressure_pa, gap_m] =
@@ -310,11 +310,11 @@ fn a_scenario_prints_its_end_and_leaves_every_file() {
     // Of some load that is prescribed, rounding; none of the rest is empty.
     let empty = |line: &str| line.split(',').any(str::is_empty);
     assert!(!history.lines().any(empty), "{history}");
-    let profile = read("profiles/1.csv");
+    let profile = read("cases/profiles/1.csv");
     assert!(profile.starts_with("radius_m,pressure_pa,displacement_m,gap_m\n0e0,"));
-    let index = read("profiles/index.csv");
+    let index = read("cases/profiles/index.csv");
     assert!(index.lines().nth(2).unwrap().starts_with("1,2.5e1,2e0,"));
-    let figures = "history.svg history@2x.png profiles.svg profiles.png profiles.csv";
+    let figures = "figures/history.svg figures/history@2x.png figures/profiles.svg figures/profiles.png figures/profiles.csv";
     place.has_all("reports/small", figures);
     assert!(read("summary.json").contains("\"status\": \"done\""));
 }
@@ -349,7 +349,7 @@ fn the_resolved_scenario_is_a_scenario_file_with_the_same_results() {
         let run = place.done(&format!("simulate {file} --quiet --out {out}"));
         assert_eq!(run.stdout + &run.stderr, "");
     }
-    for name in "resolved.toml history.csv summary.json profiles/1.csv".split(' ') {
+    for name in "resolved.toml history.csv summary.json cases/profiles/1.csv".split(' ') {
         place.are_same(&["first", "second"], name);
     }
 }
@@ -361,22 +361,24 @@ fn fields_are_arrays_for_numpy_and_images_for_paraview() {
         "simulate small.toml --quiet --set solver.engine=half-space --set solver.cells=24 \
          --set 'output.fields_at=[\"0 s\", \"20 s\"]' --out out",
     );
-    let spacing = place.table("out/fields/index.csv").number(0, "spacing_x_m");
+    let spacing = place
+        .table("out/cases/fields/index.csv")
+        .number(0, "spacing_x_m");
     for k in 0..2 {
-        let (shape, values) = npy(&place.bytes(&format!("out/fields/{k}-pressure_pa.npy")));
+        let (shape, values) = npy(&place.bytes(&format!("out/cases/fields/{k}-pressure_pa.npy")));
         assert_eq!(shape, [24, 24]);
         // The pressure carries the load, and is symmetric.
         assert!((values.iter().sum::<f64>() * spacing * spacing - 10.0).abs() < 1e-9);
         assert!((values[24 * 10 + 7] - values[24 * 13 + 16]).abs() < 1e-6 * values[24 * 12 + 12]);
-        let image = place.bytes(&format!("out/fields/{k}.vti"));
+        let image = place.bytes(&format!("out/cases/fields/{k}.vti"));
         assert!(image.starts_with(b"<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\""));
-        assert!(place.has(&format!("out/fields/{k}-gap_m.npy")));
+        assert!(place.has(&format!("out/cases/fields/{k}-gap_m.npy")));
     }
     place.has_all(
         "out",
-        "pressure-map.svg pressure-map.png fields/1-displacement_m.npy",
+        "figures/pressure-map.svg figures/pressure-map.png cases/fields/1-displacement_m.npy",
     );
-    let profile = place.text("out/profiles/0.csv");
+    let profile = place.text("out/cases/profiles/0.csv");
     assert!(profile.starts_with("line,position_m,pressure_pa,displacement_m,gap_m\nx,"));
     assert_eq!(profile.lines().filter(|l| l.starts_with("y,")).count(), 24);
 }
@@ -391,7 +393,10 @@ fn results_of_another_scenario_or_sweep_are_replaced_only_when_asked() {
     assert!(place.refused(&other).contains("--force"));
     assert_eq!(place.bytes("reports/small/history.csv"), before);
     place.done(&format!("{other} --force"));
-    assert!(!place.has("reports/small/profiles") && !place.has("reports/small/profiles.svg"));
+    assert!(
+        !place.has("reports/small/cases/profiles")
+            && !place.has("reports/small/figures/profiles.svg")
+    );
 }
 
 #[test]

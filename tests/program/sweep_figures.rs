@@ -10,7 +10,6 @@ use contact_dma::sweep::plan::{Axes, AxisValue, AxisValues, Block, Condition, Va
 use contact_dma::sweep::record::Status;
 use contact_dma::sweep::search::run::{self, Mode, Outcome};
 use contact_dma::sweep::store::Store;
-use contact_dma::sweep::store::files;
 
 /// A sweep with what it left in its folder.
 struct Swept {
@@ -52,14 +51,14 @@ impl Swept {
     }
 
     fn figures(&self) -> BTreeSet<String> {
-        let names = top_level(self.folder.path()).into_iter();
+        let names = names_in(&self.folder.path().join("figures")).into_iter();
         names
             .filter_map(|name| Some(name.strip_suffix("@2x.png")?.to_owned()))
             .collect()
     }
 }
 
-fn top_level(folder: &Path) -> BTreeSet<String> {
+fn names_in(folder: &Path) -> BTreeSet<String> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());
     let files = entries.filter(|entry| entry.path().is_file());
     files
@@ -133,7 +132,7 @@ fn the_slow_branch_of_pmma_makes_its_peak_and_the_fast_one_the_shoulder() {
     };
     assert!(fast > 0.75 && slow < 0.25, "{fast} {slow}");
     // The figure's data are these numbers.
-    let losses = swept.column("dissipation.csv", "energy_loss_j");
+    let losses = swept.column("figures/dissipation.csv", "energy_loss_j");
     // Both frequencies of the fast branch, of the slow one, and of the loop.
     let [fast, _, slow, _, total, _] = losses[..] else {
         panic!("{losses:?}");
@@ -145,7 +144,7 @@ fn the_slow_branch_of_pmma_makes_its_peak_and_the_fast_one_the_shoulder() {
 
 /// The integral of the mapped density over the surface.
 fn integral(swept: &Swept) -> f64 {
-    let name = "dissipation-map.csv";
+    let name = "figures/dissipation-map.csv";
     let density = swept.column(name, "work_j_per_m2");
     let columns = swept.table(name).columns;
     if columns.contains(&"radius_m".to_owned()) {
@@ -178,8 +177,8 @@ fn the_work_over_the_surface_adds_up_to_the_energy_loss_with_both_engines() {
     }
     // In the middle, away from the edge that cells resolve to one in thirty, both engines have the same density.
     let middle = |swept: &Swept, place: &str| {
-        let r = swept.column("dissipation-profile.csv", place);
-        let w = swept.column("dissipation-profile.csv", "work_j_per_m2");
+        let r = swept.column("figures/dissipation-profile.csv", place);
+        let w = swept.column("figures/dissipation-profile.csv", "work_j_per_m2");
         let inside = r.iter().zip(w).filter(|(r, _)| r.abs() < 100e-6);
         let (sum, count) = inside.fold((0.0, 0.0), |(s, n), (_, w)| (s + w, n + 1.0));
         sum / count
@@ -191,29 +190,47 @@ fn the_work_over_the_surface_adds_up_to_the_energy_loss_with_both_engines() {
 /// Of the folder, and of who computes in it.
 const LOCKS: [&str; 2] = [".contact-dma.compute.lock", ".contact-dma.lock"];
 
+/// Figures of a sweep over frequency alone.
+const FIGURES: &str = "energy-loss loops dissipation dissipation-profile dissipation-map moduli cole-cole van-gurp-palmen loss-tangent";
+/// And those that an axis of four amplitudes adds.
+const OF_AMPLITUDES: &str =
+    "loss-map harmonic-2-map peaks moduli-error energy-loss-over-amplitude moduli-over-amplitude";
+
+fn set(names: &str) -> BTreeSet<String> {
+    names.split_whitespace().map(str::to_owned).collect()
+}
+
 #[test]
-fn every_figure_is_known_by_name_and_another_sweep_clears_it() {
-    let omegas = [0.004, 0.008, 0.02];
+fn which_figures_there_are_follows_from_the_axes_and_another_sweep_clears_them() {
+    let omegas = [0.002, 0.004, 0.008, 0.02];
     let one = swept(pmma(&omegas));
-    let two = swept(with_amplitudes(pmma(&omegas), &[1.0, 10.0]));
+    let two = swept(with_amplitudes(pmma(&omegas), &[1.0, 2.0, 5.0, 10.0]));
     assert!(one.left_out.is_empty() && two.left_out.is_empty());
     let four = swept(over_four_axes(pmma(&omegas)));
-    for swept in [&one, &two, &four] {
-        let mut names = top_level(swept.folder.path());
-        for lock in LOCKS {
-            assert!(names.remove(lock));
-        }
-        assert!(names.iter().all(|name| files::is_result(name)), "{names:?}");
+    let top = names_in(four.folder.path()).into_iter();
+    let top: Vec<String> = top.filter(|name| !LOCKS.contains(&&**name)).collect();
+    assert_eq!(
+        top,
+        ["index.html", "resolved.toml", "summary.json", "sweep.csv"]
+    );
+    // One curve has no maps, no peaks along an axis, and no figure over one.
+    assert_eq!(one.figures(), set(FIGURES));
+    let of_two = set(&format!("{FIGURES} {OF_AMPLITUDES}"));
+    assert_eq!(two.figures(), of_two);
+    // Two values of an axis make no map.
+    four.says_left_out("no map");
+    let mut of_four = of_two;
+    of_four.retain(|name| !name.ends_with("map") || name == "dissipation-map");
+    for (axis, name) in [(2, "mean"), (3, "phase"), (4, "hold")] {
+        of_four.extend(["energy-loss", "peaks"].map(|figure| format!("{figure}-{axis}")));
+        let over = ["energy-loss", "moduli", "moduli-error"];
+        of_four.extend(over.map(|figure| format!("{figure}-over-{name}")));
     }
-    let all: BTreeSet<String> = files::FIGURES.iter().copied().map(str::to_owned).collect();
-    // One curve has no maps, no peaks along an axis, and no figure for a further axis.
-    assert!(one.figures().is_subset(&two.figures()) && one.figures().len() < two.figures().len());
-    assert_eq!(four.figures(), all);
-    let of_two = all.iter().filter(|name| !name.ends_with(['2', '3', '4']));
-    assert_eq!(two.figures(), of_two.cloned().collect());
+    assert_eq!(four.figures(), of_four);
     Store::open(four.folder.path(), "another sweep", true).unwrap();
-    let left: Vec<String> = top_level(four.folder.path()).into_iter().collect();
+    let left: Vec<String> = names_in(four.folder.path()).into_iter().collect();
     assert_eq!(left, [LOCKS[0], LOCKS[1], "resolved.toml"]);
+    assert!(!four.folder.path().join("figures").exists());
 }
 
 #[test]
@@ -232,7 +249,7 @@ fn the_indentation_formula_is_exact_for_a_punch_and_the_worse_the_larger_the_amp
         near!(result.loss_modulus_pa.unwrap(), own.im, 3e-3);
     }
     let sphere = swept(with_amplitudes(pmma(&omegas), &[0.5, 2.0, 10.0]));
-    let error = sphere.column("moduli-error.csv", "loss_relative_difference");
+    let error = sphere.column("figures/moduli-error.csv", "loss_relative_difference");
     // One curve for each frequency: that in the middle over the amplitudes.
     let [small, middle, large] = [3, 4, 5].map(|k| -error[k]);
     assert!(small < middle && middle < large, "{error:?}");
@@ -263,21 +280,44 @@ fn figures_that_do_not_apply_are_left_out_and_said() {
 }
 
 #[test]
+fn one_frequency_is_drawn_over_the_axis_and_its_table_has_every_case() {
+    let amplitudes = [1.0, 2.0, 4.0, 6.0, 8.0];
+    let swept = swept(with_amplitudes(pmma(&[0.008]), &amplitudes));
+    let table = "figures/energy-loss.csv";
+    assert_eq!(swept.column(table, "drive_amplitude"), amplitudes);
+    for column in ["energy_loss_j", "energy_loss_error_j"] {
+        assert_eq!(
+            swept.column(table, column),
+            swept.column("sweep.csv", column)
+        );
+    }
+    let caption = swept.text("figures/energy-loss.caption.txt");
+    assert!(
+        caption.starts_with("Energy loss per cycle over load amplitude: "),
+        "{caption}"
+    );
+    // The material is the same at every amplitude: a diagram of its moduli would be a point.
+    assert!(swept.figures().contains("moduli") && !swept.figures().contains("cole-cole"));
+    let own = swept.column("figures/moduli.csv", "modulus_pa");
+    assert!(own[..5].iter().all(|modulus| *modulus == own[0]), "{own:?}");
+}
+
+#[test]
 fn a_case_without_a_result_in_the_middle_of_a_map_is_a_hole_in_it() {
     let omegas = [0.002, 0.004, 0.008, 0.016, 0.03];
     let plan = with_amplitudes(pmma(&omegas), &[0.5, 1.0, 2.0, 4.0, 8.0]);
     let swept = swept(plan.clone());
-    let whole = swept.text("loss-map.svg");
+    let whole = swept.text("figures/loss-map.svg");
     let mut holed = swept.outcome.clone();
     let case = &mut holed.records[12];
     (case.status, case.result) = (Status::NotConverged, None);
     let store = Store::open(swept.folder.path(), "a sweep", false).unwrap();
     report::write_sweep(&store, &plan, &holed).unwrap();
-    let losses = swept.table("loss-map.csv").found("energy_loss_j");
+    let losses = swept.table("figures/loss-map.csv").found("energy_loss_j");
     let holes = losses.iter().enumerate().filter(|(_, loss)| loss.is_none());
     assert_eq!(holes.map(|(row, _)| row).collect::<Vec<_>>(), [12]);
     // The four fields about the case, of sixteen, are not coloured.
-    let holed = swept.text("loss-map.svg").len();
+    let holed = swept.text("figures/loss-map.svg").len();
     assert!(holed < whole.len() && holed > whole.len() / 2, "{holed}");
 }
 
@@ -310,7 +350,7 @@ fn a_map_is_told_by_its_own_cells_whatever_the_plan_asks_for() {
     assert_eq!(plan.solver.cells, 128);
     let swept = swept(plan);
     assert_eq!(swept.outcome.records[0].nodes, 20);
-    let caption = swept.text("loops.caption.txt");
+    let caption = swept.text("figures/loops.caption.txt");
     assert!(caption.contains("20 × 15 cells of the map"), "{caption}");
     assert!(!caption.contains("128"), "{caption}");
 }

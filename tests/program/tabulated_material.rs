@@ -85,7 +85,10 @@ fn the_printed_block_is_a_material_block_with_exact_numbers() {
         assert_eq!(material.creep(), expected.creep());
         assert_eq!(material.relaxation(), expected.relaxation());
         assert_eq!(material.poisson_ratio(), Some(0.38));
-        place.has_all(quantity, "fit.svg fit.png fit@2x.png fit-residual.svg");
+        place.has_all(
+            quantity,
+            "figures/fit.svg figures/fit.png figures/fit@2x.png figures/fit-residual.svg",
+        );
         let prony = place.table(&format!("{quantity}/prony.csv"));
         assert_eq!(prony.columns, ["modulus_pa", "time_s"]);
         assert!(prony.len() > 1 && prony.found("time_s")[0].is_none());
@@ -515,8 +518,12 @@ fn dynamic_data_become_a_block_tables_figures_and_a_page() {
     for name in
         "fit fit-residual master-curve isotherms shift-factors spectrum van-gurp-palmen".split(' ')
     {
-        assert!(place.text(&format!("out/{name}.svg")).starts_with("<svg"));
-        assert!(place.has(&format!("out/{name}.png")));
+        assert!(
+            place
+                .text(&format!("out/figures/{name}.svg"))
+                .starts_with("<svg")
+        );
+        assert!(place.has(&format!("out/figures/{name}.png")));
     }
     assert!(place.text("out/index.html").contains("<figcaption"));
     // The block is that of a sweep file.

@@ -148,7 +148,7 @@ scontrol show job "${array}_2" | grep -E -o 'Restarts=[0-9]+' | sed 's/^/slurm: 
 scontrol show job "${array}_2" | grep -q 'Restarts=1'
 
 "$program" sweep "$work/sweep.toml" --quiet --out "$work/single"
-for file in sweep.csv summary.json energy-loss.png loops.svg cycles.npz; do
+for file in sweep.csv summary.json figures/energy-loss.png figures/loops.svg cases/cycles.npz; do
     cmp "$work/merged/$file" "$work/single/$file"
 done
 echo "slurm: 4 tasks, one killed and requeued, merged: identical to a single process"
@@ -163,7 +163,7 @@ command=$(sed -n '/^```console$/,/^```$/s/^\$ //p' "$guide")
 SCRATCH=$work/guide bash -e -c "$command"
 patience 400 "the guide's jobs do not end" gone
 "$program" sweep many.toml --quiet --out single
-for file in sweep.csv summary.json energy-loss.png cycles.npz; do
+for file in sweep.csv summary.json figures/energy-loss.png cases/cycles.npz; do
     cmp "many/$file" "single/$file"
 done
 echo "slurm: the guide's $command: identical to a single process"
@@ -210,7 +210,7 @@ echo "slurm: study: read in $((SECONDS - begin)) s"
 begin=$SECONDS
 "$program" sweep "$work/study.toml" --quiet --out "$work/study-single"
 echo "slurm: study: a single process takes $((SECONDS - begin)) s"
-for file in sweep.csv summary.json energy-loss.png; do
+for file in sweep.csv summary.json figures/energy-loss.png; do
     cmp "$work/study/$file" "$work/study-single/$file"
 done
 echo "slurm: study: 20,000 cases on 16 tasks, three killed: identical to a single process"

@@ -1,6 +1,6 @@
 //! The checkpoint of a single history, from which an interrupted simulation goes on and ends with the very same bits.
 //!
-//! One file, `checkpoints/history`: the rows and surfaces so far at each resolution, and where the march stands within the step
+//! One file, `records/checkpoints/history`: the rows and surfaces so far at each resolution, and where the march stands within the step
 //! that comes next, before its instant is solved. One that cannot be written costs nothing but the time it would have saved.
 
 use std::borrow::Cow;
@@ -201,7 +201,7 @@ mod tests {
         assert_eq!(checkpoint.find().unwrap(), None);
         checkpoint.write(&state());
         assert_eq!(checkpoint.find().unwrap(), Some(state()));
-        let path = folder.path().join("checkpoints/history");
+        let path = folder.path().join("records/checkpoints/history");
         let bytes = fs::read(&path).unwrap();
         // Both work in the folder, and so hold it.
         drop((one, checkpoint));

@@ -10,6 +10,7 @@ use crate::input::loop_file;
 use crate::report::measured::Computed;
 use crate::report::number::range;
 use crate::sweep::store::RESOLVED;
+use crate::sweep::store::files::{Found, OfCase, Place};
 
 /// The origin of one of two results.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -129,11 +130,13 @@ pub fn computed<E: From<ComparisonError> + From<Diagnostics>>(
         "storage_modulus_pa",
         "loss_modulus_pa",
     ])?;
+    let files = Found::of(folder);
     let cases = rows
         .into_iter()
         .filter_map(|[angular, index, loss, storage, of_loss]| {
             let (angular_rad_per_s, index) = angular.zip(index)?;
-            let cycle = cycle(&folder.join(format!("loops/{}.csv", index as u64)));
+            let name = format!("{}.csv", index as u64);
+            let cycle = cycle(&files.path(Place::Case(OfCase::Loops, &name)));
             Some(cycle.map(|cycle| Computed {
                 angular_rad_per_s,
                 energy_loss_j: loss,

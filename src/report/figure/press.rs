@@ -14,10 +14,10 @@ use crate::report::chart::{self, Chart, ChartError, Color, Drawing, LegendPlace,
 use crate::report::page::Pictures;
 use crate::sweep::plan::figures::{Colors, FigurePlan, SvgText};
 use crate::sweep::store::StoreError;
-use crate::sweep::store::files;
+use crate::sweep::store::files::{CAPTION, DATA, Place};
 
-/// Writes one file: its name, its bytes.
-pub type WriteFile<'a> = dyn Fn(&str, &[u8]) -> Result<(), StoreError> + Sync + 'a;
+/// Writes one file: its place, its bytes.
+pub type WriteFile<'a> = dyn Fn(Place<'_>, &[u8]) -> Result<(), StoreError> + Sync + 'a;
 
 /// Files that are made before any of them is written.
 #[derive(Debug, Default)]
@@ -62,7 +62,7 @@ impl Press<'_> {
         figures.par_iter().try_for_each(|figure| {
             let name = &*figure.name;
             if !figure.data.is_empty() {
-                (self.write)(&format!("{name}.csv"), &figure.data)?;
+                (self.write)(Place::Figure(name, DATA), &figure.data)?;
             }
             self.picture(name, name, &figure.picture, &figure.caption.text(setting))
         })
@@ -114,8 +114,10 @@ impl Press<'_> {
             .described(caption)
             .stamped(self.pictures.sweep_hash());
         self.pictures.insert(file, &drawing);
-        let name = format!("{file}{}", files::CAPTION);
-        (self.write)(&name, format!("{caption}\n").as_bytes())?;
+        (self.write)(
+            Place::Figure(file, CAPTION),
+            format!("{caption}\n").as_bytes(),
+        )?;
         forms.par_iter().try_for_each(|(ending, form)| {
             let bytes = match *form {
                 Form::Svg(SvgText::Outlines) => Ok(drawing.to_svg().into_bytes()),
@@ -126,7 +128,7 @@ impl Press<'_> {
                 Form::PngOfScale(scale) => drawing.to_png(scale),
             };
             Ok((self.write)(
-                &format!("{file}{ending}"),
+                Place::Figure(file, ending),
                 &bytes.map_err(failed)?,
             )?)
         })

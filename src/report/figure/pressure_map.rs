@@ -14,7 +14,7 @@ use crate::simulation::SurfaceRecord;
 const NAME: &str = "pressure-map";
 
 /// Writes the map of the field with the largest pressure as `pressure-map`, and, where there are several fields, each as
-/// `fields/<k>-pressure-map`, all to one colour scale. Its data are `fields/<k>-pressure_pa.npy`. Returns why where there is
+/// `pressure-map-<k>`, all to one colour scale. Its data are `cases/fields/<k>-pressure_pa.npy`. Returns why where there is
 /// nothing to draw, nothing where nothing was asked for.
 ///
 /// # Errors
@@ -64,7 +64,7 @@ fn largest(cells: &CellSurface) -> f64 {
 
 /// The map of the field `k`, without its ending.
 pub fn file(k: usize) -> String {
-    format!("fields/{k}-{NAME}")
+    format!("{NAME}-{k}")
 }
 
 fn caption(time_s: f64, cells: &CellSurface) -> Caption {

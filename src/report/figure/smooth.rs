@@ -120,7 +120,9 @@ fn is_resolved(samples: &[Point], located: &[Point]) -> bool {
         let kept = (0..samples.len()).filter(is_kept).map(|k| samples[k]);
         let kept = merged(&kept.collect::<Vec<_>>(), located);
         let smooth = Smooth::through(&kept);
-        let mut left_out = (0..samples.len()).filter(|k| !is_kept(k)).map(|k| samples[k]);
+        let mut left_out = (0..samples.len())
+            .filter(|k| !is_kept(k))
+            .map(|k| samples[k]);
         left_out.all(|(x, y)| (smooth.value(x) - y).abs() <= TOLERANCE * (high - low))
     })
 }

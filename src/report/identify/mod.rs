@@ -17,6 +17,10 @@ use crate::report::quantities;
 use crate::report::text::{Column, Table, Text};
 use crate::report::words::listed;
 use crate::sweep::plan::resolved::material_text;
+use crate::sweep::store::files::{DATA, Place};
+
+/// The table of moduli over frequency, which the figure of these shows.
+const MODULI: Place<'_> = Place::Figure("moduli", DATA);
 
 /// An identification and what it came to.
 pub struct IdentifyReport<'a> {
@@ -28,15 +32,16 @@ pub struct IdentifyReport<'a> {
 
 impl IdentifyReport<'_> {
     /// Every file of the folder but figures and page: name and bytes; `block` is the `[material]` block.
-    pub fn files(&self, block: &str) -> Vec<(&'static str, Vec<u8>)> {
+    pub fn files(&self, block: &str) -> Vec<(String, Vec<u8>)> {
         let summary = format!("{:#}\n", summary::summary(self));
+        let top = |name, bytes| (Place::Top(name).to_string(), bytes);
         vec![
-            ("material.toml", block.into()),
-            ("resolved.toml", resolved_text(self.plan).into()),
-            ("prony.csv", prony(&self.found.relaxation)),
-            ("fit.csv", tables::fit(self)),
-            ("moduli.csv", tables::moduli(self)),
-            ("summary.json", summary.into()),
+            top("material.toml", block.into()),
+            top("resolved.toml", resolved_text(self.plan).into()),
+            top("prony.csv", prony(&self.found.relaxation)),
+            top("fit.csv", tables::fit(self)),
+            top("summary.json", summary.into()),
+            (MODULI.to_string(), tables::moduli(self)),
         ]
     }
 

@@ -11,6 +11,7 @@ use crate::measured::bias::Unbiased;
 use crate::measured::{self, Estimate, Finding, MeasuredLoop, Options, Quantity, Signal};
 use crate::report::table::{self, Cell, csv};
 use crate::sweep::record::Status;
+use crate::sweep::store::files::{OfCase, Place};
 
 /// What an analysis came to: all that tables, figures and the page are made of.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -124,29 +125,32 @@ pub fn ordered(mut rows: Vec<MeasuredRow>) -> Vec<MeasuredRow> {
 }
 
 /// The file that holds everything, of which tables and figures can be made again.
-pub const ANALYSIS: &str = "analysis.json";
+pub const ANALYSIS: Place<'_> = Place::Record("analysis.json");
 
 /// Every file of the folder but figures and page: name and bytes.
 ///
 /// # Errors
 /// Where the analysis is no JSON.
 pub fn files(analysis: &Analysis) -> serde_json::Result<Vec<(String, Vec<u8>)>> {
-    let mut files = vec![("sweep.csv".to_owned(), columns::sweep(&analysis.rows))];
+    let mut files = Vec::new();
+    let mut add = |place: Place<'_>, bytes| files.push((place.to_string(), bytes));
+    add(Place::Top("sweep.csv"), columns::sweep(&analysis.rows));
     for row in &analysis.rows {
+        let name = format!("{}.csv", row.index);
         if let Some(samples) = row.samples() {
-            files.push((format!("loops/{}.csv", row.index), table::samples(&samples)));
+            add(Place::Case(OfCase::Loops, &name), table::samples(&samples));
         }
         if let Some(measured) = &row.measured {
-            files.push((format!("cycles/{}.csv", row.index), cycles(measured)));
+            add(Place::Case(OfCase::Cycles, &name), cycles(measured));
         }
     }
     let summary = format!("{:#}\n", summary::summary(analysis));
-    files.push(("summary.json".to_owned(), summary.into_bytes()));
-    files.push((ANALYSIS.to_owned(), serde_json::to_vec(analysis)?));
+    add(Place::Top("summary.json"), summary.into_bytes());
+    add(ANALYSIS, serde_json::to_vec(analysis)?);
     Ok(files)
 }
 
-/// `cycles/<index>.csv`: every cycle by itself.
+/// `cases/cycles/<index>.csv`: every cycle by itself.
 fn cycles(measured: &MeasuredLoop) -> Vec<u8> {
     let mut columns = vec!["cycle", "start_s", "samples", "is_used"];
     columns.extend(Quantity::ALL.iter().map(|(_, column, _)| *column));

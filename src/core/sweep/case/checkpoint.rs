@@ -1,7 +1,7 @@
 //! The levels of a case that are solved already, from which an interrupted case goes on and ends with the very same bits.
 //!
 //! A case solves several stabilised cycles one after another: its levels, by steps and nodes. Each that has ended is kept in a file of
-//! its own, `checkpoints/<case>/<level>.finished`, once the case has run for a while; files are written at most every few seconds
+//! its own, `records/checkpoints/<case>/<level>.finished`, once the case has run for a while; files are written at most every few seconds
 //! and at an interruption, and removed with the case. One that cannot be written costs nothing but the time it would have saved, and
 //! one that does not belong or is damaged is passed over.
 
@@ -44,7 +44,7 @@ impl Checkpoints {
         let level = self.levels.replace(self.levels.get() + 1);
         let name = format!("{}/{level:02}.finished", self.case);
         let owner = format!("{name}\n{:016x}\n{nodes} {steps}", self.frequency);
-        CheckpointFile::new(&self.store, name, &owner)
+        CheckpointFile::new(&self.store, &name, &owner)
     }
 
     /// Takes in the end of a level.

@@ -5,7 +5,7 @@
 use std::cell::Cell;
 use std::fs;
 use std::io::{self, Read, Seek, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use serde::Serialize;
@@ -13,13 +13,11 @@ use serde::de::DeserializeOwned;
 use sha2::{Digest, Sha256};
 
 use crate::sweep::store::Store;
+use crate::sweep::store::files::Place;
 use crate::sweep::store::provenance::BUILD;
 
 /// Default time between two writes.
 pub const EVERY: Duration = Duration::from_secs(10);
-
-/// The folder of all checkpoints.
-pub(crate) const FOLDER: &str = "checkpoints";
 
 /// What has run for less than this is sooner computed again than read.
 const WORTH_KEEPING: Duration = Duration::from_secs(1);
@@ -76,7 +74,7 @@ impl Rhythm {
 #[derive(Debug, Clone)]
 pub(crate) struct CheckpointFile {
     store: Store,
-    name: PathBuf,
+    name: String,
     owner: Owner,
 }
 
@@ -97,17 +95,21 @@ pub enum Unusable {
 impl CheckpointFile {
     /// The file of this name among the checkpoints of a folder. It belongs to this build of the program, to the sweep or scenario
     /// of the folder, and to what `owner` names in it.
-    pub(crate) fn new(store: &Store, name: impl AsRef<Path>, owner: &str) -> Self {
+    pub(crate) fn new(store: &Store, name: &str, owner: &str) -> Self {
         let owner = format!("{BUILD}\n{}\n{owner}", store.sweep_hash());
         Self {
             store: store.clone(),
-            name: Path::new(FOLDER).join(name),
+            name: name.to_owned(),
             owner: Owner(Sha256::digest(owner).into()),
         }
     }
 
+    fn place(&self) -> Place<'_> {
+        Place::Checkpoint(&self.name)
+    }
+
     pub(crate) fn path(&self) -> PathBuf {
-        self.store.folder().join(&self.name)
+        self.store.folder().join(self.place().to_string())
     }
 
     /// What it holds; `None` where there is none.
@@ -124,7 +126,7 @@ impl CheckpointFile {
     /// taken, nothing is left behind.
     pub(crate) fn write(&self, content: &impl Serialize) {
         let write = |file: &mut fs::File| self.owner.encode(content, file);
-        let _ = (self.store.check_plan()).and_then(|()| self.store.write_with(&self.name, write));
+        let _ = (self.store.check_plan()).and_then(|()| self.store.write_with(self.place(), write));
     }
 
     /// Removes all checkpoints of the folder.

@@ -8,7 +8,7 @@ use std::path::{Component, Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::folder_lock::{LOCK, LOCKS};
-use super::records::{self, Records};
+use super::records::Records;
 use super::{RESOLVED, StoreError, files, log};
 use crate::sweep::plan::resolved::hash;
 
@@ -119,8 +119,9 @@ pub(super) fn look(folder: &Path, resolved: Option<&str>) -> Result<Listed, Stor
     let mut listed = journal_of(&journal);
     let mut is_listed = !listed.files.is_empty();
     let mut is_of_program = false;
-    for name in names.iter().filter(|name| may_be_signed(name)) {
-        let Some(run) = run_of(&folder.join(name)) else {
+    let signed = [RUN, SUMMARY].map(str::to_owned).into_iter();
+    for name in signed.chain(files::runs_of_shards(folder)) {
+        let Some(run) = run_of(&folder.join(&name)) else {
             continue;
         };
         is_of_program = true;
@@ -133,7 +134,7 @@ pub(super) fn look(folder: &Path, resolved: Option<&str>) -> Result<Listed, Stor
     }
     if is_listed {
         // Logs are known by their content.
-        let logs = format!("{}/", records::FOLDER);
+        let logs = format!("{}/", files::RECORDS);
         listed.files.extend(files_in(folder, &logs, &|name| {
             log::is_one(&folder.join(name))
         }));
@@ -141,7 +142,7 @@ pub(super) fn look(folder: &Path, resolved: Option<&str>) -> Result<Listed, Stor
         // Without a list the files are known by their names.
         let plan = fs::read_to_string(folder.join(RESOLVED)).ok();
         listed.kind = plan.map(|plan| Kind::of_plan(&plan)).or(listed.kind);
-        listed.files = files_in(folder, "", &files::is_result).collect();
+        listed.files = files_in(folder, "", &|name| files::is_result(folder, name)).collect();
     } else {
         listed.kind = None;
         listed.foreign = names.into_iter().find(|name| !name.starts_with(PRIVATE));
@@ -165,11 +166,6 @@ pub fn files_of(folder: &Path) -> Result<BTreeSet<String>, StoreError> {
     let mut files = look(folder, None)?.files;
     files.retain(|name| !LOCKS.contains(&&**name) && folder.join(name).is_file());
     Ok(files)
-}
-
-/// Files that name the program: `run.json`, those of shards, and the summary.
-fn may_be_signed(name: &str) -> bool {
-    name == RUN || name == SUMMARY || files::is_run_of_shard(name)
 }
 
 fn run_of(path: &Path) -> Option<Run> {

@@ -223,11 +223,16 @@ impl Manifest {
     /// Lists a file that is about to be written.
     ///
     /// # Errors
-    /// [`StoreError::ForeignFile`] where there is one of this name that the program has not written.
+    /// [`StoreError::ForeignFile`] where there is one of this name that the program has not written; [`StoreError::ReplacesInput`]
+    /// where it is read.
     pub(super) fn record(&self, name: &str) -> Result<(), StoreError> {
+        let path = self.folder.join(name);
+        if name != RESOLVED && self.reads.contains(name) {
+            let (read, written) = (path.clone(), path);
+            return Err(StoreError::ReplacesInput { read, written });
+        }
         let mut state = self.state();
         if !state.listed.contains(name) {
-            let path = self.folder.join(name);
             if path.symlink_metadata().is_ok() {
                 // Another process of the same result may have written it meanwhile.
                 self.look_again(&mut state)?;
@@ -311,8 +316,9 @@ impl Manifest {
     pub(super) fn remove_temporaries(&self) {
         let state = self.state();
         let parents = (state.listed.iter()).filter_map(|name| Path::new(name).parent());
-        let folders = [""].iter().chain(&files::NUMBERED).map(Path::new);
-        let folders: BTreeSet<&Path> = folders.chain(parents).collect();
+        let parents = parents.map(Path::to_path_buf);
+        let folders = files::folders().map(PathBuf::from);
+        let folders: BTreeSet<PathBuf> = folders.chain(parents).collect();
         let entries = folders
             .iter()
             .flat_map(|folder| fs::read_dir(self.folder.join(folder)));

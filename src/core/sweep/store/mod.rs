@@ -33,6 +33,7 @@ use tempfile::NamedTempFile;
 pub use error::{Remedy, StoreError};
 
 use crate::sweep::plan::resolved::{hash, identity};
+use crate::sweep::store::files::Place;
 use crate::sweep::store::folder_lock::{FolderLock, Others};
 use crate::sweep::store::manifest::{Kind, Manifest, Target};
 use crate::sweep::store::records::Records;
@@ -118,7 +119,8 @@ impl Store {
             force,
             reads,
         };
-        let (manifest, others, is_other_kind) = target.take(Some(resolved), &files::is_result)?;
+        let (manifest, others, is_other_kind) =
+            target.take(Some(resolved), &files::is_in_the_way)?;
         let store = Self::of(folder, resolved, manifest, force);
         if force {
             if others == Others::AtWork {
@@ -129,7 +131,7 @@ impl Store {
         store.manifest.lock.share();
         if others == Others::AtWork {
             // A command that has filled the folder meanwhile.
-            target.look(Some(resolved), &files::is_result)?;
+            target.look(Some(resolved), &files::is_in_the_way)?;
         }
         store.publish(resolved)?;
         Ok(store)
@@ -280,8 +282,8 @@ impl Store {
     ///
     /// # Errors
     /// [`StoreError::Write`] with the path; [`StoreError::TakenOver`] where the folder is of another sweep by now.
-    pub fn write(&self, name: impl AsRef<Path>, bytes: &[u8]) -> Result<(), StoreError> {
-        self.write_with(name, |file| file.write_all(bytes))
+    pub fn write(&self, place: Place<'_>, bytes: &[u8]) -> Result<(), StoreError> {
+        self.write_with(place, |file| file.write_all(bytes))
     }
 
     /// The same, of a file that is written bit by bit.
@@ -290,11 +292,11 @@ impl Store {
     /// As [`Self::write`].
     pub fn write_with(
         &self,
-        name: impl AsRef<Path>,
+        place: Place<'_>,
         write: impl FnOnce(&mut fs::File) -> io::Result<()>,
     ) -> Result<(), StoreError> {
-        let name = name.as_ref();
-        self.manifest.record(&name_of(name))?;
+        let name = place.to_string();
+        self.manifest.record(&name)?;
         let path = self.folder.join(name);
         let file = temporary(&path, write)?;
         self.check_plan()?;
@@ -326,10 +328,10 @@ impl Store {
 
     /// Removes checkpoints: those of a case by its name, or all.
     pub(crate) fn remove_checkpoints(&self, case: &str) {
-        // Left behind, they cost nothing but their place.
-        let _ = self
-            .manifest
-            .remove_below(&Path::new(checkpoint_file::FOLDER).join(case));
+        for folder in files::checkpoints_of(case) {
+            // Left behind, they cost nothing but their place.
+            let _ = self.manifest.remove_below(&folder);
+        }
     }
 
     /// Removes what an earlier run has written and this one has not: it showed more, or something else. Records stay.
@@ -458,8 +460,8 @@ mod tests {
     fn a_plan_at_work_is_replaced_by_nobody_and_one_at_rest_when_forced() {
         let folder = tempfile::TempDir::new().unwrap();
         let at_work = Store::open(folder.path(), PLAN, false).unwrap();
-        for name in ["records/0000.json", "run-1-of-2.json"] {
-            at_work.write(name, b"{}").unwrap();
+        for name in ["0000.json", "run-1-of-2.json"] {
+            at_work.write(Place::Record(name), b"{}").unwrap();
         }
         for plan in [PLAN, OTHER] {
             let refused = Store::open(folder.path(), plan, true).unwrap_err();
@@ -478,8 +480,7 @@ mod tests {
             StoreError::OtherSweep { at_work: false, .. }
         ));
         Store::open(folder.path(), OTHER, true).unwrap();
-        let left = ["records", "run-1-of-2.json"].map(|name| folder.path().join(name).exists());
-        assert_eq!(left, [false; 2]);
+        assert!(!folder.path().join("records").exists());
         assert_eq!(read_plan(folder.path()).unwrap(), OTHER);
     }
 
@@ -489,7 +490,7 @@ mod tests {
         let folder = tempfile::TempDir::new().unwrap();
         let store = Store::open(folder.path(), PLAN, false).unwrap();
         let refused = || {
-            let written = store.write("records/0000.json", b"{}");
+            let written = store.write(Place::Record("0000.json"), b"{}");
             matches!(written, Err(StoreError::TakenOver { .. }))
         };
         write_atomically(&folder.path().join(RESOLVED), OTHER.as_bytes()).unwrap();

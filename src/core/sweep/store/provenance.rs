@@ -7,6 +7,7 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use serde::Serialize;
 
 use crate::engine::SolverPlan;
+use crate::sweep::store::files::Place;
 use crate::sweep::store::listing::RUN;
 use crate::sweep::store::{Store, StoreError};
 
@@ -80,9 +81,11 @@ impl Stopwatch {
         cycle_tolerance: Option<f64>,
         circumstances: &Circumstances,
     ) -> Result<(), StoreError> {
-        let name = match &circumstances.shard {
-            Some(shard) => format!("run-{}.json", shard.replace('/', "-of-")),
-            None => RUN.to_owned(),
+        let of_shard = circumstances.shard.as_ref();
+        let of_shard = of_shard.map(|shard| format!("run-{}.json", shard.replace('/', "-of-")));
+        let place = match &of_shard {
+            Some(name) => Place::Record(name),
+            None => Place::Top(RUN),
         };
         let run = Run {
             sweep_hash: store.sweep_hash(),
@@ -99,7 +102,7 @@ impl Stopwatch {
             cpu_time_s: cpu_time_s(),
         };
         store.check_plan()?;
-        store.manifest.sign(&name, Some(&run))
+        store.manifest.sign(&place.to_string(), Some(&run))
     }
 }
 

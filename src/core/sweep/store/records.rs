@@ -12,12 +12,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use super::entry::{self, Heading, Key, Origin, Purpose};
 use super::log::{self, LogWriter, Met};
 use super::provenance::BUILD;
-use super::{Store, StoreError, VERSION};
+use super::{Store, StoreError, VERSION, files};
 use crate::sweep::plan::Case;
 use crate::sweep::record::CaseRecord;
-
-/// The folder of the logs.
-pub const FOLDER: &str = "records";
 
 /// What is said of bytes that are no record.
 const NOT_USED: &str = "(their checksum does not match): what stood there is not used";
@@ -101,7 +98,7 @@ struct State {
 impl Records {
     pub(super) fn in_folder(folder: &Path, sweep_hash: &str, force: bool) -> Self {
         Self(Mutex::new(State {
-            folder: Some(folder.join(FOLDER)),
+            folder: Some(folder.join(files::RECORDS)),
             sweep_hash: sweep_hash.to_owned(),
             force,
             ..State::default()
