@@ -193,7 +193,7 @@ impl KeptFigures {
         };
         self.figures.par_iter().try_for_each(|figure| {
             if !figure.data.is_empty() {
-                files.insert(Place::Figure(&figure.name, DATA), &*figure.data);
+                press.put(&figure.name, DATA, figure.data.as_bytes())?;
             }
             press.picture(&figure.name, "figure", &figure.picture, &figure.caption)
         })?;

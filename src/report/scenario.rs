@@ -30,7 +30,7 @@ pub fn write(
     {
         // The page shows SI units throughout, since its own script draws in them.
         match history.picture.draw() {
-            Ok(drawing) => pictures.insert("history", &drawing),
+            Ok(drawing) => pictures.show_instead("history", &drawing),
             Err(error) => pictures.insert_failure("history", &error),
         }
     }

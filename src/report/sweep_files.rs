@@ -109,7 +109,7 @@ fn picture_in_si(
     let (figures, _) = figure::of_sweep::figures(&in_si, outcome)?;
     for figure in figures.iter().filter(|f| page::FIGURES.contains(&&*f.name)) {
         match figure.picture.draw() {
-            Ok(drawing) => pictures.insert(&figure.name, &drawing),
+            Ok(drawing) => pictures.show_instead(&figure.name, &drawing),
             Err(error) => pictures.insert_failure(&figure.name, &error),
         }
     }

@@ -281,7 +281,7 @@ pub fn files(figures: &[Figure], plan: &FigurePlan) -> Result<Vec<(String, Vec<u
     figures.par_iter().try_for_each(|figure| {
         let name = figure.name();
         let picture = Picture(figure.panels.clone());
-        files.insert(Place::Figure(&name, DATA), &figure.data[..]);
+        press.put(&name, DATA, &figure.data)?;
         // The page of the repository shows one resolution.
         let mut forms = paper::pictures(plan);
         forms.retain(|(ending, _)| *ending != "@2x.png");

@@ -23,7 +23,7 @@ async function open(name, options, body) {
   page.on("console", (message) => noise.push(message.text()));
   page.on("pageerror", (error) => noise.push(error.stack));
   page.on("dialog", (dialog) => { noise.push(`dialog ${dialog.message()}`); dialog.dismiss(); });
-  page.on("request", (request) => { if (request.url() !== url && !/^(data|blob):/.test(request.url())) noise.push(`request ${request.url()}`); });
+  page.on("request", (request) => { if (request.url() !== url && !request.url().startsWith(url.replace("index.html", "figures/")) && !/^(data|blob):/.test(request.url())) noise.push(`request ${request.url()}`); });
   await page.goto(url);
   await body(page);
   assert.deepEqual(noise, []);
@@ -197,8 +197,38 @@ test("a sweep of two axes lets its drive be chosen, and shows maps", () => open(
 test("names stay names, and ticks tell one value from the next", () => open("names", {}, async (page) => {
   assert.deepEqual((await page.locator("#drive option").allInnerTexts()).map((text) => text.trim()), ["1", "1.0"]);
   for (const ticks of [[100000, 100500, 101000, 101500], [1.0001e-6, 1.0002e-6], [1e5, 2e5]]) {
-    const texts = await page.evaluate((ticks) => ticks.map((tick) => tickText(tick, ticks, false)), ticks);
-    assert.equal(new Set(texts).size, ticks.length, texts.join(" "));
+    const texts = await page.evaluate(([low, high]) => ticksOf(low, high, false, 5).major.map(({ label }) => label), [ticks[0], ticks.at(-1)]);
+    assert.ok(texts.length > 1 && new Set(texts).size === texts.length, texts.join(" "));
+  }
+}));
+
+// The rules of the figures: these labels are those of the tests of src/report/chart/ticks.rs.
+test("ticks are those of the figures", () => open("sixty", {}, async (page) => {
+  for (const [low, high, log, most, expected] of [
+    [0, 1, false, 6, "0 0.2 0.4 0.6 0.8 1.0"],
+    [1900, 2500, false, 7, "1900 2000 2100 2200 2300 2400 2500"],
+    [-0.5, 0.5, false, 5, "−0.4 −0.2 0 0.2 0.4"],
+    [0, 4e-9, false, 5, "0|1 × 10⁻⁹|2 × 10⁻⁹|3 × 10⁻⁹|4 × 10⁻⁹"],
+    [0, 40000, false, 3, "0|20\u202f000|40\u202f000"],
+    [1e-4, 1, true, 6, "10⁻⁴ 10⁻³ 10⁻² 10⁻¹ 10⁰"],
+  ]) {
+    const texts = await page.evaluate((given) => ticksOf(...given).major.map(({ label }) => label), [low, high, log, most]);
+    assert.deepEqual(texts, expected.split(expected.includes("|") ? "|" : " "));
+  }
+}));
+
+test("every figure has its place, with its caption and links to its files", () => open("sixty", {}, async (page) => {
+  const figures = page.locator(".gallery figure");
+  const count = await figures.count();
+  assert.ok(count > 6);
+  for (let k = 0; k < count; k++) {
+    const figure = figures.nth(k);
+    await figure.scrollIntoViewIfNeeded();
+    const picture = figure.locator("svg, img");
+    await picture.waitFor({ state: "visible" });
+    if ((await picture.evaluate((e) => e.tagName)) === "IMG") await page.waitForFunction((e) => e.complete && e.naturalWidth > 0, await picture.elementHandle());
+    assert.ok((await figure.locator("figcaption").innerText()).length > 40);
+    assert.ok((await figure.locator("a[href^='figures/']").count()) >= 2);
   }
 }));
 

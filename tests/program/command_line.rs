@@ -181,7 +181,7 @@ fn a_material_is_drawn_into_a_folder() {
         "figures/moduli.svg figures/moduli.png figures/moduli.csv figures/relaxation.svg figures/relaxation@2x.png",
     );
     // Figure 1 of the paper: from 2491.44 MPa down to 1973.05 at 1000 s.
-    let curve = place.table("out/relaxation.csv").rows;
+    let curve = place.table("out/figures/relaxation.csv").rows;
     let number = |cell: &String| cell.parse::<f64>().unwrap();
     let (first, last) = (&curve[0], &curve[curve.len() - 1]);
     assert_eq!(number(&last[0]), 1000.0);

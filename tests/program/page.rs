@@ -114,6 +114,63 @@ fn holds_the_surface(place: &Place, case: &Value) {
     assert!(shown.iter().all(|point| work.contains(point)));
 }
 
+/// The files that a page links to or shows from its folder.
+fn linked(page: &str) -> BTreeSet<String> {
+    let names = page.split("=\"figures/").skip(1);
+    let name = |rest: &str| format!("figures/{}", rest.split('"').next().unwrap());
+    names.map(name).collect()
+}
+
+/// Every file of a figure is linked to from the page, which shows its caption, and nothing else is.
+#[track_caller]
+fn shows_its_figures(place: &Place, folder: &str) {
+    let page = place.text(&format!("{folder}/index.html"));
+    assert_stands_alone(&page);
+    let files = place.files(folder).into_keys();
+    let files: BTreeSet<String> = files.filter(|name| name.starts_with("figures/")).collect();
+    assert!(files.len() > 2);
+    assert_eq!(linked(&page), files, "{folder}");
+    let said = unescaped(&page);
+    for name in files.iter().filter(|name| name.ends_with(".caption.txt")) {
+        says(&said, &[place.text(&format!("{folder}/{name}")).trim_end()]);
+    }
+}
+
+#[test]
+fn every_figure_of_every_command_has_its_place_on_the_page_with_its_caption_and_its_files() {
+    let place = crate::folders::inputs();
+    place.lend("cells.toml");
+    for (k, command) in [
+        "sweep small.toml",
+        "simulate cells.toml",
+        "analyse raw/0.csv",
+        "identify identify.toml",
+        "material show pmma",
+        "material fit dma.csv --quantity dynamic --modulus shear --poisson-ratio 0.4",
+        "compare swept swept",
+    ]
+    .iter()
+    .enumerate()
+    {
+        let out = format!("out-{k}");
+        place.done(&format!("{command} --out {out}"));
+        shows_its_figures(&place, &out);
+    }
+    // In other forms, and where the page draws in other units than the files.
+    let look = "--set 'figures.formats=[\"pdf\"]' --set figures.axes=normalised";
+    place.done(&format!("report out-0 --quiet {look}"));
+    shows_its_figures(&place, "out-0");
+    place.done("report out-4 --quiet --set 'figures.formats=[\"png\"]'");
+    shows_its_figures(&place, "out-4");
+}
+
+#[test]
+fn one_frequency_is_called_one() {
+    let (page, _) = page(&sweep_file("\"one\"", r#"["0.008 rad/s"]"#, ""), 0);
+    says(&page, &["; one frequency, "]);
+    assert!(!page.contains("1 frequencies"));
+}
+
 #[test]
 fn a_title_that_is_code_is_shown_as_text() {
     let title = r#"'</script><script>alert("x")</script><!-- {{data}} & <b>'"#;

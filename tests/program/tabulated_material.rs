@@ -92,7 +92,7 @@ fn the_printed_block_is_a_material_block_with_exact_numbers() {
         let prony = place.table(&format!("{quantity}/prony.csv"));
         assert_eq!(prony.columns, ["modulus_pa", "time_s"]);
         assert!(prony.len() > 1 && prony.found("time_s")[0].is_none());
-        let rows = place.table(&format!("{quantity}/fit.csv")).len();
+        let rows = place.table(&format!("{quantity}/figures/fit.csv")).len();
         assert_eq!(rows, times_s().len());
     }
 }

@@ -62,7 +62,7 @@ impl Press<'_> {
         figures.par_iter().try_for_each(|figure| {
             let name = &*figure.name;
             if !figure.data.is_empty() {
-                (self.write)(Place::Figure(name, DATA), &figure.data)?;
+                self.put(name, DATA, &figure.data)?;
             }
             self.picture(name, name, &figure.picture, &figure.caption.text(setting))
         })
@@ -113,11 +113,8 @@ impl Press<'_> {
         let drawing = drawing
             .described(caption)
             .stamped(self.pictures.sweep_hash());
-        self.pictures.insert(file, &drawing);
-        (self.write)(
-            Place::Figure(file, CAPTION),
-            format!("{caption}\n").as_bytes(),
-        )?;
+        self.pictures.insert(file, caption, &drawing);
+        self.put(file, CAPTION, format!("{caption}\n").as_bytes())?;
         forms.par_iter().try_for_each(|(ending, form)| {
             let bytes = match *form {
                 Form::Svg(SvgText::Outlines) => Ok(drawing.to_svg().into_bytes()),
@@ -127,11 +124,18 @@ impl Press<'_> {
                 Form::PngOfDpi(dpi) => drawing.to_png_at(dpi),
                 Form::PngOfScale(scale) => drawing.to_png(scale),
             };
-            Ok((self.write)(
-                Place::Figure(file, ending),
-                &bytes.map_err(failed)?,
-            )?)
+            Ok(self.put(file, ending, &bytes.map_err(failed)?)?)
         })
+    }
+
+    /// Writes one file of a figure.
+    ///
+    /// # Errors
+    /// [`StoreError`].
+    pub fn put(&self, figure: &str, ending: &str, bytes: &[u8]) -> Result<(), StoreError> {
+        (self.write)(Place::Figure(figure, ending), bytes)?;
+        self.pictures.wrote(figure, ending);
+        Ok(())
     }
 }
 

@@ -8,7 +8,7 @@ use super::frame::{Frame, Input, PLOT};
 use super::pictures::Pictures;
 use super::question::list;
 use super::sweep_data::FrequencyData;
-use super::{copying, scroll, section, still};
+use super::{copying, scroll, section};
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::report::ReportError;
 use crate::report::comparison::text::peak_words;
@@ -103,6 +103,7 @@ fn sections(compared: &Compared<'_>) -> Markup {
             p class="asked" { (tolerances(compared.tolerances)) }
         }
         (curves(comparison.unit, compared.pictures))
+        (compared.pictures.gallery(&["comparison"]))
         (section("columns-heading", "Column by column", html! {
             (scroll("Columns", columns(comparison)))
             (copying("Copy the curve as CSV", "Download comparison.csv"))
@@ -127,7 +128,7 @@ fn curves(unit: FrequencyUnit, pictures: &Pictures) -> Markup {
         div id="curve" class="live plot tall" {}
         div id="difference" class="live plot" {}
         p class="live hint" id="bars" {}
-        (still(pictures, "comparison", "No case has a loss in both results: there is nothing to draw."))
+        (pictures.still("comparison", "No case has a loss in both results: there is nothing to draw."))
     };
     section(
         "curves-heading",

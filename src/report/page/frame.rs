@@ -39,9 +39,8 @@ pub struct Input<'a> {
     pub text: &'a str,
 }
 
-/// Nothing may be loaded from anywhere.
-const POLICY: &str =
-    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
+/// Nothing may be loaded but pictures that are beside the page.
+const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src 'self' file: data:";
 
 impl Frame<'_> {
     /// The page, with what its script knows.
@@ -76,7 +75,7 @@ impl Frame<'_> {
                     footer {
                         p {
                             "Made by contact-dma " (VERSION)
-                            ". This page needs no network: everything it shows is inside it."
+                            ". This page needs no network; sent without its folder, it lacks the figures that are files of it."
                         }
                     }
                     script type="application/json" id="data" { (PreEscaped(data)) }

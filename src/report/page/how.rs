@@ -40,9 +40,10 @@ pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> Markup {
     }
     facts.add("time steps per cycle", integer(|r| r.steps as f64));
     facts.add("cycles solved per case", integer(|r| r.cycles as f64));
+    // What is less than rounding says nothing.
     facts.add(
-        "distance to the stabilised cycle",
-        known(|r| r.steady_distance),
+        "distance to the stabilised cycle, or rounding where that is more",
+        known(|r| Some(r.steady_distance?.max(f64::EPSILON))),
     );
     facts.add(
         "estimated error of the loss, relative",

@@ -69,8 +69,9 @@ pub fn page(material: &Material, about: &About<'_>) -> Result<String, ReportErro
                 label { input type="checkbox" id="log-y"; " log values" }
             }
             div id="over-time" class="live plot tall" {}
-            figure class="static" { @if let Some(figure) = about.pictures.inline(about.figure) { (figure) } }
+            (about.pictures.still(about.figure, "There is nothing to draw."))
         }
+        (about.pictures.gallery(&[about.figure]))
     };
     let function = match about.fit {
         Some((table, _)) => table.function(),

@@ -109,18 +109,6 @@ fn scroll(what: &str, table: Markup) -> Markup {
     html! { section class="scroll" tabindex="0" aria-label=(label) { (table) } }
 }
 
-/// A figure for a reader without script; `otherwise` where there is nothing to draw.
-fn still(pictures: &Pictures, name: &str, otherwise: &str) -> Markup {
-    html! {
-        figure class="static" {
-            @match pictures.inline(name) {
-                Some(figure) => (figure),
-                None => p { (otherwise) },
-            }
-        }
-    }
-}
-
 /// Where the script draws the moduli of the material.
 fn moduli(class: &str) -> Markup {
     html! {

@@ -1,19 +1,42 @@
 //! Pictures on their way to their files, kept for the page: each is drawn once.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use maud::{Markup, PreEscaped, html};
 
 use crate::report::chart::{ChartError, Drawing};
+use crate::sweep::store::files::{CAPTION, DATA, Place};
 
 /// The pictures of a result by name, as elements of a page.
 #[derive(Debug, Default)]
 pub struct Pictures {
     sweep_hash: Option<String>,
-    by_name: Mutex<BTreeMap<String, String>>,
+    by_name: Mutex<BTreeMap<String, Shown>>,
     not_drawn: Mutex<BTreeMap<String, String>>,
     missing_letters: Mutex<BTreeSet<char>>,
+    /// Whether marks stand in the places of pictures, until these are drawn.
+    are_marks: bool,
+}
+
+/// What a page shows of a figure.
+#[derive(Debug, Default)]
+struct Shown {
+    /// The picture; empty where there is none.
+    element: String,
+    /// Whether its file shows the same: on axes of other units it does not.
+    differs_from_file: bool,
+    caption: String,
+    /// The endings of the files that were written.
+    endings: BTreeSet<String>,
+}
+
+/// Bytes of the pictures that a page holds in its gallery where they have no file that it can show.
+const MOST_INLINE: usize = 400_000;
+
+/// Where a lock was poisoned, what was inserted is whole all the same.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Pictures {
@@ -27,59 +50,76 @@ impl Pictures {
 
     /// For figures of these names, a mark in the place of each picture, which [`Pictures::placed`] replaces.
     pub(in crate::report) fn marks<'a>(names: impl IntoIterator<Item = &'a str>) -> Self {
+        let shown = |name: &str| Shown {
+            element: mark("picture", name),
+            ..Shown::default()
+        };
         let names = names.into_iter();
         Self {
-            by_name: Mutex::new(names.map(|name| (name.to_owned(), mark(name))).collect()),
+            by_name: Mutex::new(names.map(|name| (name.to_owned(), shown(name))).collect()),
+            are_marks: true,
             ..Self::default()
         }
     }
 
     /// A page with pictures in the places of their marks; why there is none stands in the place of one that could not be drawn.
     pub(in crate::report) fn placed(&self, page: &str, names: &[&str]) -> String {
-        let reasons = self
-            .not_drawn
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
-        let picture = |name: &str| {
-            let reason = || html! { p { (reasons.get(name).map_or("", String::as_str)) } };
-            self.inline(name).unwrap_or_else(reason).into_string()
-        };
-        let placed = |page: String, name: &&str| page.replace(&mark(name), &picture(name));
-        names.iter().fold(page.to_owned(), placed)
+        let reasons = lock(&self.not_drawn);
+        let mut room = MOST_INLINE;
+        let mut page = page.to_owned();
+        for name in names {
+            let reason = || html! { p { (reasons.get(*name).map_or("", String::as_str)) } };
+            let picture = self.inline(name).unwrap_or_else(reason);
+            page = page.replace(&mark("picture", name), &picture.into_string());
+            page = page.replace(&mark("files", name), &self.files(name).into_string());
+            for is_still in [true, false] {
+                let mark = mark(gallery_mark(is_still), name);
+                if page.contains(&mark) {
+                    let item = self.item(name, is_still, &mut room).into_string();
+                    page = page.replace(&mark, &item);
+                }
+            }
+        }
+        page
     }
 
     pub(in crate::report) fn sweep_hash(&self) -> Option<&str> {
         self.sweep_hash.as_deref()
     }
 
-    /// Keeps a picture under this name.
-    pub fn insert(&self, name: &str, drawing: &Drawing) {
-        let mut pictures = self.by_name.lock().unwrap_or_else(PoisonError::into_inner);
-        pictures.insert(name.to_owned(), drawing.to_page_element());
-        let missing = drawing.missing_letters();
-        let letters = self.missing_letters.lock();
-        letters
-            .unwrap_or_else(PoisonError::into_inner)
-            .extend(missing);
+    /// Keeps a picture under this name, with its caption.
+    pub fn insert(&self, name: &str, caption: &str, drawing: &Drawing) {
+        let mut pictures = lock(&self.by_name);
+        let shown = pictures.entry(name.to_owned()).or_default();
+        shown.element = drawing.to_page_element();
+        caption.clone_into(&mut shown.caption);
+        lock(&self.missing_letters).extend(drawing.missing_letters());
+    }
+
+    /// Has the page show another picture in the place of the one that is in the files.
+    pub fn show_instead(&self, name: &str, drawing: &Drawing) {
+        let mut pictures = lock(&self.by_name);
+        let shown = pictures.entry(name.to_owned()).or_default();
+        shown.element = drawing.to_page_element();
+        shown.differs_from_file = true;
+    }
+
+    /// Takes note of a file of a figure.
+    pub fn wrote(&self, name: &str, ending: &str) {
+        let mut pictures = lock(&self.by_name);
+        let shown = pictures.entry(name.to_owned()).or_default();
+        shown.endings.insert(ending.to_owned());
     }
 
     /// Keeps why a picture could not be drawn.
     pub fn insert_failure(&self, name: &str, error: &ChartError) {
-        let mut reasons = self
-            .not_drawn
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
-        reasons.insert(name.to_owned(), format!("no figure {name}: {error}"));
+        lock(&self.not_drawn).insert(name.to_owned(), format!("no figure {name}: {error}"));
     }
 
     /// Why pictures could not be drawn, a sentence each, in the order of their names; and which letters are missing in those that were.
     pub fn not_drawn(&self) -> Vec<String> {
-        let reasons = self
-            .not_drawn
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
-        let letters = self.missing_letters.lock();
-        let letters = letters.unwrap_or_else(PoisonError::into_inner);
+        let reasons = lock(&self.not_drawn);
+        let letters = lock(&self.missing_letters);
         let missing = (!letters.is_empty()).then(|| {
             let letters: Vec<String> = letters.iter().map(char::to_string).collect();
             let letters = letters.join(" ");
@@ -90,12 +130,114 @@ impl Pictures {
 
     /// The picture of this name as a part of a page.
     pub fn inline(&self, name: &str) -> Option<Markup> {
-        let pictures = self.by_name.lock().unwrap_or_else(PoisonError::into_inner);
-        pictures.get(name).cloned().map(PreEscaped)
+        let pictures = lock(&self.by_name);
+        let element = pictures.get(name).map(|shown| shown.element.clone());
+        element
+            .filter(|element| !element.is_empty())
+            .map(PreEscaped)
+    }
+
+    /// A figure that a reader without script sees in this place; with one, its place is in the gallery. `otherwise` is said where
+    /// there is nothing to draw.
+    pub(super) fn still(&self, name: &str, otherwise: &str) -> Markup {
+        let is_moved = lock(&self.by_name)
+            .get(name)
+            .is_some_and(|shown| !shown.differs_from_file);
+        html! {
+            figure class="static" data-figure=[is_moved.then_some(name)] {
+                @match self.inline(name) {
+                    Some(figure) => (figure),
+                    None => p { (otherwise) },
+                }
+            }
+        }
+    }
+
+    /// Every figure with its caption and links to its files: first those that stand in other places of the page as stills.
+    pub(super) fn gallery(&self, stills: &[&str]) -> Markup {
+        let drawn =
+            |(name, shown): (&String, &Shown)| (!shown.element.is_empty()).then(|| name.clone());
+        let names: Vec<String> = lock(&self.by_name).iter().filter_map(drawn).collect();
+        let is_still = |name: &String| stills.contains(&name.as_str());
+        let (mut first, rest): (Vec<String>, Vec<String>) = names.into_iter().partition(is_still);
+        first.sort_by_key(|name| stills.iter().position(|still| still == name));
+        let mut room = MOST_INLINE;
+        html! {
+            @if !first.is_empty() || !rest.is_empty() {
+                section aria-labelledby="figures-heading" {
+                    h2 id="figures-heading" { "Figures" }
+                    div class="gallery" {
+                        @for name in first.iter().chain(&rest) { (self.item(name, is_still(name), &mut room)) }
+                    }
+                }
+            }
+        }
+    }
+
+    /// One figure of the gallery; the script brings the picture of a still here.
+    fn item(&self, name: &str, is_still: bool, room: &mut usize) -> Markup {
+        if self.are_marks {
+            return PreEscaped(mark(gallery_mark(is_still), name));
+        }
+        let pictures = lock(&self.by_name);
+        let Some(shown) = pictures.get(name) else {
+            return Markup::default();
+        };
+        let mut endings = [".svg", ".png"].into_iter();
+        let file = endings.find(|ending| shown.endings.contains(*ending));
+        let is_inline = file.is_none() && !shown.differs_from_file && shown.element.len() <= *room;
+        let caption = shown.caption.clone();
+        let picture = match file {
+            _ if is_still && !shown.differs_from_file => Markup::default(),
+            Some(ending) => {
+                let source = Place::Figure(name, ending).to_string();
+                html! { img loading="lazy" src=(source) alt=(name.replace('-', " ")); }
+            }
+            None if is_inline => {
+                *room -= shown.element.len();
+                PreEscaped(shown.element.clone())
+            }
+            None => Markup::default(),
+        };
+        drop(pictures);
+        html! {
+            figure id={ "figure-" (name) } {
+                (picture)
+                figcaption { (caption) (self.files(name)) }
+            }
+        }
+    }
+
+    /// Links to the files of a figure.
+    pub(super) fn files(&self, name: &str) -> Markup {
+        if self.are_marks {
+            return PreEscaped(mark("files", name));
+        }
+        let pictures = lock(&self.by_name);
+        let endings = pictures.get(name).map(|shown| shown.endings.clone());
+        html! {
+            @for ending in endings.unwrap_or_default() {
+                " " a href=(Place::Figure(name, &ending).to_string()) { (called(&ending)) }
+            }
+        }
     }
 }
 
-/// The place of a picture: a comment, as which nothing that a page says can stand there, since it is escaped.
-fn mark(name: &str) -> String {
-    format!("<!-- picture {name} -->")
+/// What a link to a file with this ending is called.
+fn called(ending: &str) -> String {
+    match ending {
+        CAPTION => "caption".to_owned(),
+        DATA => "data (CSV)".to_owned(),
+        "@2x.png" => "PNG, twice as fine".to_owned(),
+        ending => ending.trim_start_matches('.').to_uppercase(),
+    }
+}
+
+fn gallery_mark(is_still: bool) -> &'static str {
+    if is_still { "still" } else { "figure" }
+}
+
+/// The place of a picture, or of what belongs to it: a comment, as which nothing that a page says can stand there, since it is escaped.
+fn mark(what: &str, name: &str) -> String {
+    format!("<!-- {what} {name} -->")
 }

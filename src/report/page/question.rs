@@ -45,6 +45,12 @@ pub(super) fn line(plan: &SweepPlan) -> String {
     let omegas = &plan.angular_frequencies_rad_per_s;
     let unit = plan.figures.frequency_unit;
     let range = match (omegas.first(), omegas.last()) {
+        (Some(one), Some(_)) if omegas.len() == 1 => {
+            format!(
+                "one frequency, {}",
+                plain(unit.of(*one), unit.dimension(), 3)
+            )
+        }
         (Some(first), Some(last)) => format!(
             "{} frequencies from {} to {}",
             omegas.len(),

@@ -8,7 +8,7 @@ use super::compact::{CoarseCells, coarse, picked, picked_optional, rounded, spre
 use super::how;
 use super::question::{self, Facts};
 use super::sweep_data::MaterialData;
-use super::{Pictures, moduli, scroll, section, still};
+use super::{Pictures, moduli, scroll, section};
 use crate::contact::surface::{CellSurface, Surface};
 use crate::quantity::Dimension;
 use crate::report::caption;
@@ -167,10 +167,11 @@ pub(super) fn sections(
             div class="live grid" { div id="radius" class="plot" {} div id="pressure" class="plot" {} }
             h3 class="live" { "Load against approach" }
             div id="loop" class="live plot" {}
-            (still(pictures, "history", "The history has no two times: there is nothing to draw."))
+            (pictures.still("history", "The history has no two times: there is nothing to draw."))
         }
         (cycles(outcome, pictures))
         (surface())
+        (pictures.gallery(&["history", "cycle-losses"]))
         (section("asked-heading", "What was asked", html! {
             (question(plan))
             div id="material" class="live" { h3 { "Moduli of the material" } (moduli("grid")) }
@@ -211,7 +212,7 @@ fn cycles(outcome: &SimulationOutcome, pictures: &Pictures) -> Markup {
         }
     };
     let content = html! {
-        (still(pictures, "cycle-losses", "No segment has two cycles to draw."))
+        (pictures.still("cycle-losses", "No segment has two cycles to draw."))
         (scroll("Cycles", table))
         @if all.len() > TABLE { p { "The first and the last of " (all.len()) " cycles; all are in cycles.csv." } }
     };

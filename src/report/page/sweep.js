@@ -211,7 +211,8 @@ function start(data) {
       lines.push(line(`dissipated by the ${name}`, `${withUnit(part, "J", 6)} (${significant((100 * part) / row.dissipated_j, 3)} %)`));
     });
     const plain = [["error of the energy balance (dissipated by branches / area of loop − 1)", "energy_imbalance"], ["distance to the stabilised cycle", "steady_distance"]];
-    for (const [name, column] of plain) lines.push(line(name, row[column] === null ? "undefined" : significant(row[column], 3)));
+    const ratio = (v) => (v === null ? "undefined" : Math.abs(v) < Number.EPSILON ? "less than rounding" : significant(v, 3));
+    for (const [name, column] of plain) lines.push(line(name, ratio(row[column])));
     lines.push(line("method", `${row.method}, ${row.cycles} cycles, ${row.steps} steps per cycle, ${row.nodes} ${data.node_name}`));
     if (row.warnings) lines.push(line("warnings", row.warnings));
     if (row.message) lines.push(line("message", row.message));

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::{Pictures, answer, cases_table, how, moduli, question, scroll, section, still};
+use super::{FIGURES, Pictures, answer, cases_table, how, moduli, question, scroll, section};
 use crate::report::rigid_indenter;
 use crate::report::warnings;
 use crate::sweep::plan::{Block, SweepPlan, Varied};
@@ -28,6 +28,7 @@ pub(super) fn sections(
             }
             div id="branches" class="plot tall" {}
         }
+        (pictures.gallery(&FIGURES))
         (all_frequencies(plan, shown, outcome.records.len()))
         (section("asked-heading", "What was asked", html! {
             (question::sweep(plan))
@@ -70,7 +71,7 @@ fn curve(plan: &SweepPlan, outcome: &Outcome, pictures: &Pictures) -> Markup {
                 " Rings mark the peaks. Click a point, or use the arrow keys on the curve or the list below, to choose a \
                  frequency."
             }
-            (still(pictures, "energy-loss", NOTHING))
+            (pictures.still("energy-loss", NOTHING))
         }
     }
 }
@@ -129,7 +130,7 @@ fn loops(pictures: &Pictures) -> Markup {
         }
         div id="loops" class="live plot tall" {}
         ul id="kept" class="live chips" {}
-        (still(pictures, "loops", NOTHING))
+        (pictures.still("loops", NOTHING))
     };
     section("loops-heading", "Loops side by side", content)
 }
@@ -145,7 +146,7 @@ fn all_frequencies(plan: &SweepPlan, outcome: &Outcome, all: usize) -> Markup {
         } @else {
             p class="hint" {
                 @if shown < all { "This page shows " (shown) " of " (all) " cases. " }
-                "All cases, to the last digit, are in sweep.csv beside this page."
+                "All cases, to the last digit, are in " a href="sweep.csv" { "sweep.csv" } " beside this page."
             }
             div class="live controls" role="group" aria-label="Pages of the table" id="pages" {
                 button type="button" id="page-before" { "← Before" }
