@@ -19,7 +19,7 @@ use crate::sweep::plan::figures::{AxisUnits, FigurePlan, FontChoice, Format};
 
 /// The keys of figures of a sweep, of which the first are of no use to a history.
 const KEYS: &[Key] = FigurePlan::KEYS;
-const OF_FREQUENCIES: usize = 2;
+const OF_FREQUENCIES: usize = 5;
 
 pub(super) static OF_SWEEP: Rows = of_keys(&[KEYS]);
 pub(super) static OF_SCENARIO: Rows = of_keys(&[KEYS.split_at(OF_FREQUENCIES).1]);
@@ -118,6 +118,8 @@ fn checked(mut table: TableReader<'_>, plan: Option<FigurePlan>) -> Option<Figur
     let widths: Vec<(&Key, ())> = widths.map(|key| (key, ())).collect();
     let is_one = !widths.iter().all(|(key, ())| table.has(key)) || table.one_of(&widths).is_some();
     let [width, column, height] = ["width", "column", "height"].map(|key| table.value_place(key));
+    let [frequency_range, energy_loss_range] =
+        ["frequency_range", "energy_loss_range"].map(|key| table.value_place(key));
     let [dpi, axes, font] = ["dpi", "axes", "font"].map(|key| table.value_place(key));
     let folder = table.folder();
     table.finish();
@@ -134,7 +136,33 @@ fn checked(mut table: TableReader<'_>, plan: Option<FigurePlan>) -> Option<Figur
     if let Some(column) = plan.column.take() {
         plan.width_m = Some(column.width_m());
     }
+    let ranges = [
+        (
+            "frequency_range",
+            &plan.frequency_range_rad_per_s,
+            frequency_range,
+        ),
+        (
+            "energy_loss_range",
+            &plan.energy_loss_range_j,
+            energy_loss_range,
+        ),
+    ];
+    let mut is_fine = true;
+    for (key, range, place) in ranges {
+        let (is_reversed, location) = (range.is_sorted_by(|a, b| a >= b), place);
+        if let Some(location) = location.filter(|_| is_reversed) {
+            problems
+                .at(
+                    &location,
+                    format!("`{key}` has its ends the wrong way round"),
+                )
+                .help("write the lower end first");
+            is_fine = false;
+        }
+    }
     let sides = [width.or(column), height];
+    is_fine.then_some(())?;
     fits(&plan, &sides, dpi.as_ref(), problems).then_some(Figures { plan, axes })
 }
 

@@ -433,7 +433,7 @@ pub enum MarkPlace {
 
 impl MarkPlace {
     /// Its x and its y, as far as it has them.
-    fn coordinates(self) -> (Option<f64>, Option<f64>) {
+    pub(in crate::report) fn coordinates(self) -> (Option<f64>, Option<f64>) {
         match self {
             Self::Point { x, y } => (Some(x), Some(y)),
             Self::Vertical { x } => (Some(x), None),

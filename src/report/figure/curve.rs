@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::plot::Quantity;
+use super::plot::{Plot, Quantity};
+use super::quantity::ENERGY_LOSS;
 use super::units::Units;
 use crate::report::ReportError;
 use crate::sweep::plan::{AxisValue, Block, Condition, SweepPlan, Varied};
@@ -221,10 +222,32 @@ impl<'a> SweepCurves<'a> {
         }
     }
 
-    /// At most `most` of the curves, evenly spread.
+    /// Those of the curves that are asked for; without any, at most `most`, evenly spread.
     pub fn shown(&self, most: usize) -> Vec<&Curve<'a>> {
-        let places = evenly(self.curves.len(), most).into_iter();
+        let asked = self.plan.figures.curves.iter();
+        let mut places: Vec<usize> = asked.map(|number| *number as usize - 1).collect();
+        places.retain(|place| *place < self.curves.len());
+        if places.is_empty() || self.curves.len() == 1 {
+            places = evenly(self.curves.len(), most);
+        }
+        let places = places.into_iter();
         places.filter_map(|k| self.curves.get(k)).collect()
+    }
+
+    /// A frame over the abscissa, whose ends may be asked for.
+    pub fn plot(&self, y: Quantity) -> Plot {
+        let ends = |range: &[f64]| range.first().copied().zip(range.last().copied());
+        let asked = &self.plan.figures;
+        let of_loss = y.column == ENERGY_LOSS.column;
+        Plot {
+            x_ends: match self.over {
+                Abscissa::Frequency => ends(&asked.frequency_range_rad_per_s),
+                Abscissa::Axis(_) => None,
+            },
+            y_ends: ends(&asked.energy_loss_range_j).filter(|_| of_loss),
+            family: self.family.clone(),
+            ..Plot::new(self.x.clone(), y)
+        }
     }
 
     /// All cases, curve by curve.

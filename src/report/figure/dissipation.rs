@@ -1,7 +1,7 @@
 //! Which relaxation branch dissipates: the energy loss over frequency as a stack of the losses of the branches.
 
 use super::curve::{Curve, SweepCurves};
-use super::plot::{Plot, Point, Spread, Trace};
+use super::plot::{Point, Spread, Trace};
 use super::quantity::ENERGY_LOSS;
 use super::{Drawn, Figure};
 use crate::quantity::{Dimension, format_human};
@@ -61,7 +61,9 @@ pub fn figure(sweep: &SweepCurves<'_>, curve: &Curve<'_>) -> Drawn {
         .smooth(located.clone())
         .label("area of the loop")
         .color(Color::Rgb(0, 0, 0));
-    let plot = Plot::new(sweep.x.clone(), ENERGY_LOSS.spread(Spread::Linear))
+    let plot = sweep
+        .plot(ENERGY_LOSS.spread(Spread::Linear))
+        .family(None)
         .title(curve.label.clone())
         .traces(areas)
         .traces([total]);

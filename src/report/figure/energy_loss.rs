@@ -3,7 +3,7 @@
 
 use super::Figure;
 use super::curve::{Curve, SweepCurves};
-use super::plot::{Plot, Point, Trace};
+use super::plot::{Point, Trace};
 use super::quantity::ENERGY_LOSS;
 use crate::report::caption::{self, Caption};
 use crate::report::chart::{Mark, Marker};
@@ -46,10 +46,7 @@ pub fn figure(sweep: &SweepCurves<'_>) -> Figure {
     });
     let marks: Vec<Mark> = marks.collect();
     let caption = caption(sweep, shown.len(), !marks.is_empty());
-    let plot = Plot::new(sweep.x.clone(), ENERGY_LOSS)
-        .family(sweep.family.clone())
-        .traces(traces)
-        .marks(marks);
+    let plot = sweep.plot(ENERGY_LOSS).traces(traces).marks(marks);
     Figure::of("energy-loss", &[plot], caption, &sweep.units)
 }
 

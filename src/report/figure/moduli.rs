@@ -179,12 +179,13 @@ impl Diagram {
                 traces.push(look.symbols(part, symbols));
             }
         }
-        let x = match &self.x {
-            Some((quantity, _)) => quantity.clone(),
-            None => sweep.x.clone(),
+        let y = self.y.clone();
+        let plot = match &self.x {
+            Some((quantity, _)) => Plot::new(quantity.clone(), y),
+            None => sweep.plot(y).family(None),
         };
         let title = curves.first().and_then(|(curve, _)| curve.label.clone());
-        let plot = Plot::new(x, self.y.clone())
+        let plot = plot
             .title(title.filter(|_| curves.len() == 1))
             .traces(traces);
         Figure::of(

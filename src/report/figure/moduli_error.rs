@@ -3,7 +3,7 @@
 
 use super::curve::SweepCurves;
 use super::equivalent::{LoopModulus, largest_differences};
-use super::plot::{Plot, Point, Quantity, Trace};
+use super::plot::{Point, Quantity, Trace};
 use super::units::Measure;
 use super::{Drawn, Figure};
 use crate::report::caption::Caption;
@@ -56,8 +56,8 @@ pub fn figure(sweep: &SweepCurves<'_>) -> Drawn {
                     .member(curve.member)
                     .smooth([])
             });
-        Plot::new(sweep.x.clone(), y)
-            .family(sweep.family.clone())
+        sweep
+            .plot(y)
             .traces(traces)
             .legend(Some(LegendPlace::Above))
     };

@@ -400,6 +400,16 @@ impl Plot {
         })
     }
 
+    /// Whether a mark is within the ends of the axes that are given.
+    fn holds(&self, mark: &Mark) -> bool {
+        let within = |ends: Option<(f64, f64)>, value: Option<f64>| match (ends, value) {
+            (Some((low, high)), Some(value)) => (low..=high).contains(&value),
+            _ => true,
+        };
+        let (x, y) = mark.place.coordinates();
+        within(self.x_ends, x) && within(self.y_ends, y)
+    }
+
     /// How both axes are shown, with their titles.
     fn axes(&self, units: &Units) -> [(Axis, Shown); 2] {
         let points = || self.traces.iter().flat_map(|trace| &trace.points);
@@ -500,7 +510,7 @@ impl Plot {
             .legend(self.legend)
             .all_series(bands)
             .all_series(series)
-            .all_marks(self.marks.iter().filter_map(|mark| on.mark(mark)));
+            .all_marks(self.marks.iter().filter(|m| self.holds(m)).filter_map(|m| on.mark(m)));
         chart.color_scale = self.color_scale.clone();
         chart
     }

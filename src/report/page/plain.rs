@@ -51,7 +51,7 @@ pub(super) fn shown(figures: &[Figure], pictures: &Pictures) -> Markup {
             @if let Some(picture) = pictures.inline(&figure.name) {
                 figure {
                     (picture)
-                    figcaption { (figure.caption.text(&Setting::default())) (pictures.files(figure.name)) }
+                    figcaption { (figure.caption.text(&Setting::default())) (pictures.files(&figure.name)) }
                 }
             }
         }

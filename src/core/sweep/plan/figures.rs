@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-use crate::quantity::Dimension::{AngularFrequency, Length};
+use crate::quantity::Dimension::{AngularFrequency, Energy, Length};
 use crate::quantity::FrequencyUnit;
 use crate::quantity::block::{Block as _, Field};
 use crate::quantity::key::{Entries, Kind, Limits, Number, number, quantity, words_of};
@@ -26,8 +26,16 @@ const FORMATS: Entries = Entries {
         "write at least one of \"svg\", \"png\", \"pdf\" and \"eps\", or leave it out",
     )
 };
-/// More loops than this cannot be told apart.
+/// More loops, or curves, than this cannot be told apart.
 const MOST_LOOPS: usize = 8;
+const CURVE: Limits = Limits::between(1.0, 1e6).or_else("curves are counted from 1");
+const CURVES: Entries = Entries {
+    repeats: false,
+    ..Entries::of(
+        1..=MOST_LOOPS,
+        "a figure shows 1 to 8 curves; leave it out and some are chosen",
+    )
+};
 
 block_with_defaults! {
     /// Appearance of figures; does not affect results, and all of it is optional.
@@ -35,6 +43,14 @@ block_with_defaults! {
         /// Frequencies whose loops are drawn (the nearest cases); left out: chosen automatically. Hz is accepted too.
         loops_rad_per_s: Vec<f64> = Vec::new() => "loops",
             Kind::Numbers(quantity(AngularFrequency), Entries::of(1..=MOST_LOOPS, "a figure shows 1 to 8 loops; leave it out and some are chosen")), chosen;
+        /// Numbers of the curves in figures that show several, in the order in which `sweep.csv` has them; left out: some, evenly spread.
+        curves: Vec<f64> = Vec::new() => "curves", Kind::Numbers(number("1").within(CURVE), CURVES);
+        /// Ends of the axis in figures over frequency; left out: those of the sweep. Hz is accepted too.
+        frequency_range_rad_per_s: Vec<f64> = Vec::new() => "frequency_range",
+            Kind::Numbers(quantity(AngularFrequency).above_zero(), Entries::two("write both ends, such as `[\"1e-3 rad/s\", \"1 rad/s\"]`"));
+        /// Ends of the axis of the energy loss; left out: chosen from the losses.
+        energy_loss_range_j: Vec<f64> = Vec::new() => "energy_loss_range",
+            Kind::Numbers(quantity(Energy).not_negative(), Entries::two("write both ends, such as `[\"0 J\", \"4 uJ\"]`"));
         /// Unit of frequencies in figures, tables and text; left out: that used in `[sweep]`.
         frequency_unit: FrequencyUnit = FrequencyUnit::RadPerS => "frequency_unit", Kind::Word(FrequencyUnit::WORDS), chosen;
         /// Width and text for one (85 mm) or two (180 mm) columns of a journal, in place of `width`.
@@ -183,6 +199,9 @@ mod tests {
     fn everything() -> FigurePlan {
         FigurePlan {
             loops_rad_per_s: vec![1e-3, 0.1],
+            curves: vec![1.0, 3.0],
+            frequency_range_rad_per_s: vec![1e-3, 1.0],
+            energy_loss_range_j: vec![0.0, 4e-6],
             column: None,
             width_m: Some(0.085),
             height_m: Some(0.06),
@@ -205,7 +224,8 @@ mod tests {
         let whole = format!("{sweep}\n{}", everything().text());
         assert_eq!(
             &whole[sweep.len()..],
-            "\n[figures]\nloops = [\"0.001 rad/s\", \"0.1 rad/s\"]\nfrequency_unit = \"Hz\"\nwidth = \"0.085 m\"\nheight = \"0.06 m\"\nfont_size = 7.0\n\
+            "\n[figures]\nloops = [\"0.001 rad/s\", \"0.1 rad/s\"]\ncurves = [1.0, 3.0]\n\
+             frequency_range = [\"0.001 rad/s\", \"1 rad/s\"]\nenergy_loss_range = [\"0 J\", \"0.000004 J\"]\nfrequency_unit = \"Hz\"\nwidth = \"0.085 m\"\nheight = \"0.06 m\"\nfont_size = 7.0\n\
              font = \"serif\"\ncolors = \"grey\"\nformats = [\"png\", \"pdf\"]\nsvg_text = \"text\"\ndpi = 600\naxes = \"normalised\"\ntitles = false\n"
         );
     }
