@@ -34,6 +34,7 @@ mod folders;
 mod fuzz_inputs;
 mod guides;
 mod identify;
+mod ink;
 mod input_keys;
 mod large_sweep;
 mod layer;

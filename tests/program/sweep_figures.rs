@@ -67,14 +67,14 @@ fn names_in(folder: &Path) -> BTreeSet<String> {
 }
 
 /// PMMA under the sphere of the main job, coarse.
-fn pmma(angular_frequencies_rad_per_s: &[f64]) -> SweepPlan {
+pub fn pmma(angular_frequencies_rad_per_s: &[f64]) -> SweepPlan {
     let mut plan = pmma_plan(sphere(10e-3), 5.0);
     plan.angular_frequencies_rad_per_s = angular_frequencies_rad_per_s.to_vec();
     (plan.cycle.steps, plan.solver.springs) = (60, 120);
     plan
 }
 
-fn with_amplitudes(mut plan: SweepPlan, amplitudes: &[f64]) -> SweepPlan {
+pub fn with_amplitudes(mut plan: SweepPlan, amplitudes: &[f64]) -> SweepPlan {
     let varied = Varied::amplitude(plan.base.drive.control());
     let axis = Axes::of_drive(&plan, varied, amplitudes.iter().copied());
     plan.axes = Some(axis.unwrap());

@@ -6,11 +6,12 @@ use super::canvas::Canvas;
 use super::color_map::{self, LEVELS};
 use super::geometry::Rect;
 use super::heat_map::HeatMap;
-use super::layout::{crisp, tick_widths};
+use super::layout::{PlacedText, block, centered, crisp, tick_widths, upright_title, upwards};
 use super::look::*;
 use super::scale::AxisMap;
-use super::text::{ASCENT_EM, Anchor, CAPITAL_EM, DESCENT_EM, width_em};
+use super::text::{Anchor, CAPITAL_EM};
 use super::ticks::{self, Ticks};
+use super::titles::{Lines, Phrase};
 use super::{Chart, ChartError, Color, ColorScale, Scale, color_scale};
 use crate::report::number::largest;
 
@@ -22,21 +23,27 @@ const BAR_WIDTH: f64 = 20.0;
 pub(super) struct Bar {
     /// `None` where series have the colours.
     pub(super) map: Option<Arc<HeatMap>>,
-    label: String,
+    /// Quantity and unit, upwards beside the bar.
+    pub(super) title: Lines,
+    /// Between which heights (px) it stands.
+    title_ends: (f64, f64),
     scale: Scale,
     /// The values at the two ends.
     pub(super) range: (f64, f64),
     pub(super) ticks: Ticks,
     widest_label: f64,
-    label_em: f64,
 }
 
 impl Bar {
-    /// The bar of the chart's map, else of its colour scale.
+    /// The bar of the chart's map, else of its colour scale, beside a frame with these ends; its title has these.
     ///
     /// # Errors
     /// [`ChartError`] where the values of the map cannot be drawn.
-    pub(super) fn of(chart: &Chart) -> Result<Option<Self>, ChartError> {
+    pub(super) fn of(
+        chart: &Chart,
+        (top, bottom): (f64, f64),
+        title_ends: (f64, f64),
+    ) -> Result<Option<Self>, ChartError> {
         let (map, name, label, scale, range) = match (&chart.map, &chart.color_scale) {
             (Some(map), _) => {
                 let label = &map.value_label;
@@ -56,26 +63,28 @@ impl Bar {
                 reason: "the first end of the value range must be below the second",
             });
         }
-        // Along a bar of unit length; the frame's height is not known yet.
-        let unit = AxisMap::new(scale, range, (0.0, 1.0));
+        let along = AxisMap::new(scale, range, (bottom, top));
+        let least = ((bottom - top) / 9.0).max(1.6 * TICK_TEXT);
         let ticks = ticks::choose(scale, low, high, |ticks| {
-            let apart = |pair: &[ticks::Tick]| unit.px(pair[1].value) - unit.px(pair[0].value);
-            ticks.windows(2).all(|pair| apart(pair) >= 1.0 / 9.0)
+            let apart = |pair: &[ticks::Tick]| along.px(pair[0].value) - along.px(pair[1].value);
+            ticks.windows(2).all(|pair| apart(pair) >= least)
         });
         Ok(Some(Self {
             map,
-            label: label.clone(),
+            title: upright_title(
+                &Phrase::measure(label, &chart.typeface),
+                title_ends.1 - title_ends.0,
+            ),
+            title_ends,
             scale,
             range,
             widest_label: largest(tick_widths(chart, &ticks)),
-            label_em: width_em(label, &chart.typeface),
             ticks,
         }))
     }
 
     pub(super) fn total_width(&self) -> f64 {
-        let label = LABEL_TEXT * (ASCENT_EM + DESCENT_EM) + LABEL_GAP;
-        BAR_GAP + BAR_WIDTH + MAJOR_TICK + TICK_GAP + self.widest_label + label
+        BAR_GAP + BAR_WIDTH + MAJOR_TICK + TICK_GAP + self.widest_label + block(&self.title)
     }
 
     /// The colour of a level.
@@ -104,8 +113,8 @@ impl Bar {
         })
     }
 
-    /// The sides of the frame that a chart leaves open, outline, ticks and labels of the bar.
-    pub(super) fn draw(&self, frame: &Rect, height_px: f64, canvas: &mut Canvas) {
+    /// The sides of the frame that a chart leaves open, outline and ticks of the bar.
+    pub(super) fn draw(&self, frame: &Rect, canvas: &mut Canvas) {
         let [top_left, top_right, bottom_right, _] = frame.corners();
         canvas.line(&[top_left, top_right, bottom_right], FRAME_STROKE, FRAME);
         let bar = self.rect(frame);
@@ -116,6 +125,11 @@ impl Bar {
             let y = crisp(along.px(value));
             canvas.line(&[(right, y), (right + length, y)], FRAME_STROKE, FRAME);
         }
+    }
+
+    pub(super) fn tick_labels(&self, frame: &Rect, canvas: &mut Canvas) {
+        let right = self.rect(frame).right;
+        let along = AxisMap::new(self.scale, self.range, (frame.bottom, frame.top));
         let level = Anchor::Start;
         for tick in &self.ticks.major {
             let at = (
@@ -124,16 +138,13 @@ impl Bar {
             );
             canvas.text(&tick.label, at, TICK_TEXT, level);
         }
-        // A label too long for the frame may be as long as the picture; beyond that it is set smaller rather than cut off.
-        let room = frame.height() + LABEL_TEXT;
-        let (room, middle) = match self.label_em * LABEL_TEXT <= room {
-            true => (room, (frame.top + frame.bottom) / 2.0),
-            false => (height_px - 2.0 * MARGIN, height_px / 2.0),
-        };
-        let size = LABEL_TEXT.min(room / self.label_em.max(1e-9));
-        let beside = right + MAJOR_TICK + TICK_GAP + self.widest_label + LABEL_GAP;
-        let at = (beside + LABEL_TEXT * ASCENT_EM, middle);
-        let upwards = Anchor::Upwards;
-        canvas.text(&self.label, at, size, upwards);
+    }
+
+    /// The lines of the title along the bar.
+    pub(super) fn title(&self, frame: &Rect) -> impl Iterator<Item = PlacedText> {
+        let beside = self.rect(frame).right + MAJOR_TICK + TICK_GAP + self.widest_label;
+        let middle = (frame.top + frame.bottom) / 2.0;
+        let middle = centered(&self.title, middle, self.title_ends);
+        upwards(&self.title, middle, beside + LABEL_GAP)
     }
 }

@@ -1,11 +1,52 @@
 //! Contour lines of values on a grid: marching squares between the centres of the cells (W. E. Lorensen and H. E. Cline,
 //! Computer Graphics 21(4) (1987) 163, in two dimensions).
 
+use std::collections::BTreeMap;
+
 use super::geometry::Point;
+
+/// The lines on which the values reach `level`, each from end to end, in units of cells as of [`segments`].
+pub(super) fn lines(values: &[Option<f64>], columns: usize, level: f64) -> Vec<Vec<Point>> {
+    let segments = segments(values, columns, level);
+    // Two squares find the point on the side between them to rounding.
+    let key = |(x, y): Point| [x, y].map(|of| (1e6 * of).round() as i64);
+    let mut at: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
+    for (place, (from, to)) in segments.iter().enumerate() {
+        for end in [from, to] {
+            at.entry(key(*end)).or_default().push(place);
+        }
+    }
+    let mut is_used = vec![false; segments.len()];
+    let mut go_on = |line: &mut Vec<Point>| {
+        while let Some(&last) = line.last() {
+            let next = at.get(&key(last)).into_iter().flatten();
+            let Some(&next) = next.into_iter().find(|&&next| !is_used[next]) else {
+                break;
+            };
+            is_used[next] = true;
+            let (from, to) = segments[next];
+            line.push(if key(from) == key(last) { to } else { from });
+        }
+    };
+    let mut lines = Vec::new();
+    for (from, _) in &segments {
+        // Both ways from the middle of an open line; once around a closed one.
+        let (mut back, mut line) = (vec![*from], vec![*from]);
+        go_on(&mut line);
+        go_on(&mut back);
+        back.reverse();
+        back.pop();
+        back.extend(line);
+        if back.len() > 1 {
+            lines.push(back);
+        }
+    }
+    lines
+}
 
 /// Segments of the line on which the values reach `level`, in units of cells: the centre of the first cell is (0.5, 0.5).
 /// `values` are row by row, x fastest; nothing is drawn beside a blank.
-pub(super) fn segments(values: &[Option<f64>], columns: usize, level: f64) -> Vec<(Point, Point)> {
+fn segments(values: &[Option<f64>], columns: usize, level: f64) -> Vec<(Point, Point)> {
     let mut found = Vec::new();
     let rows = values.len() / columns.max(1);
     for row in 0..rows.saturating_sub(1) {
@@ -84,6 +125,23 @@ mod tests {
             // Linear between cells: short of the circle by at most 1/(8 * 20).
             assert!(((x - 30.0).hypot(y - 30.0) - 20.0).abs() < 7e-3);
         }
+    }
+
+    #[test]
+    fn segments_are_joined_to_whole_lines() {
+        let cone = grid(60, 60, |x, y| (x - 30.0).hypot(y - 30.0));
+        let closed = lines(&cone, 60, 20.0);
+        assert_eq!(closed.len(), 1);
+        assert_eq!(closed[0].len(), segments(&cone, 60, 20.0).len() + 1);
+        let (first, last) = (closed[0][0], closed[0][closed[0].len() - 1]);
+        assert!((first.0 - last.0).hypot(first.1 - last.1) < 1e-6);
+        // Two valleys in which the level is reached twice each.
+        let wave = grid(40, 5, |x, _| (x * 0.35).sin());
+        let open = lines(&wave, 40, 0.31);
+        assert!(
+            open.len() >= 4 && open.iter().all(|line| line.len() == 5),
+            "{open:?}"
+        );
     }
 
     #[test]

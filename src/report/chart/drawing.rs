@@ -5,7 +5,9 @@ use std::collections::BTreeSet;
 
 use tiny_skia::{Path, Transform};
 
+use super::layers::Layer;
 use super::look::TEXT;
+use super::notes::Notes;
 use super::text::{Anchor, Line};
 use super::{Color, Size};
 use crate::figures::font::Typeface;
@@ -28,6 +30,9 @@ pub struct Drawing {
     /// For those whose letters are text, families as a style sheet names them.
     pub(super) families: String,
     pub(super) shapes: Vec<Shape>,
+    /// Where (px) each chart begins, and how many of its shapes are of which layer, from back to front.
+    pub(super) layers: Vec<(u32, Vec<(Layer, usize)>)>,
+    pub(super) notes: Notes,
 }
 
 /// The size of a picture on paper, and the length of each px of its drawing there.

@@ -1,31 +1,32 @@
 //! How high a chart of a given width must be for its labels and its legend.
 
-use super::check::check;
-use super::draw::arrange;
-use super::layout::Widths;
+use super::arrange::{Arrangement, arrange};
 use super::{Chart, ChartError};
 
-/// The height (px) that a chart of this width wants: its own, or as much as it takes to set the label of y in full size, and that
-/// of a legend above the frame, so that it takes no room from the frame.
+/// The height (px) that a chart of this width wants: its own, and as much more as its upright titles are too long for it, or a legend
+/// above the frame takes, so that it takes no room from the frame.
 ///
 /// # Errors
 /// [`ChartError`] where the chart cannot be laid out, however high.
 pub fn fitting_height_px(chart: &Chart) -> Result<u32, ChartError> {
-    /// More than any legend needs.
-    const AMPLE_PX: u32 = 1000;
-    check(chart)?;
-    let of_label = Widths::measure(chart).height_of_y_label_px().ceil() as u32;
-    let high = chart.size.height_px.max(of_label);
-    let arranged = |high: u32| arrange(&chart.clone().size(chart.size.width_px, high));
-    let arrangement = arranged(high).or_else(|error| match error {
-        ChartError::Size { .. } => arranged(high.saturating_add(AMPLE_PX)),
-        other => Err(other),
-    })?;
-    let above = arrangement
-        .legend
-        .filter(|legend| legend.rect.bottom <= arrangement.layout.frame.top);
-    let legend = above.map_or(0, |legend| legend.rect.height().ceil() as u32);
-    Ok(high.saturating_add(legend))
+    /// Steps by which a picture grows that has no room at all, and how many of them: more than any legend needs.
+    const STEP_PX: u32 = 50;
+    const STEPS: u32 = 100;
+    let own = chart.size.height_px;
+    let mut result = Ok(own);
+    for high in (0..STEPS).map(|step| own.saturating_add(step * STEP_PX)) {
+        result = match arrange(&chart.clone().size(chart.size.width_px, high)) {
+            Err(error @ ChartError::Size { .. }) => Err(error),
+            Err(other) => return Err(other),
+            Ok(Arrangement { layout, legend, .. }) => {
+                let above = legend.filter(|legend| legend.rect.bottom <= layout.frame.top);
+                let legend = above.map_or(0.0, |legend| legend.rect.height());
+                let more = (legend + layout.missing_height_px).ceil() as u32;
+                return Ok(high.max(own.saturating_add(more)));
+            }
+        };
+    }
+    result
 }
 
 /// Whether a chart of this size has room for its labels and its legend.
@@ -43,7 +44,8 @@ pub fn fits(chart: &Chart) -> Result<bool, ChartError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::chart::look::{LABEL_TEXT, LEGEND_TEXT, MARGIN};
+    use crate::report::chart::canvas::Anchor;
+    use crate::report::chart::look::{LABEL_TEXT, LEGEND_TEXT};
     use crate::report::chart::{Axis, Series};
 
     /// Five curves with long names, in a picture as narrow as a column.
@@ -65,23 +67,17 @@ mod tests {
         let chart = narrow_family();
         let high = fitting_height_px(&chart).unwrap();
         let arrangement = arrange(&chart.clone().size(481, high)).unwrap();
-        let sizes = arrangement.layout.texts.iter().map(|text| text.size);
-        let sizes: Vec<f64> = sizes.collect();
-        // Full size but for rounding: nothing is set smaller.
-        assert!(
-            sizes.iter().all(|size| *size > 0.999 * LABEL_TEXT),
-            "{sizes:?}"
-        );
-        let label = &arrangement.layout.texts[1];
+        // The label of y has two lines, and no text is much smaller than it should be.
+        let texts = &arrangement.layout.texts;
+        assert!(texts.iter().all(|text| text.size >= 0.85 * LABEL_TEXT));
+        let of_y: Vec<_> = texts
+            .iter()
+            .filter(|text| text.anchor == Anchor::Upwards)
+            .collect();
+        assert_eq!(of_y.len(), 2);
         let legend = arrangement.legend.unwrap().rect;
         assert!(legend.bottom <= arrangement.layout.frame.top);
-        // The label of y begins below the legend.
-        let length = Widths::measure(&chart).height_of_y_label_px() - 2.0 * MARGIN;
-        assert!(
-            label.at.1 - length / 2.0 >= legend.bottom,
-            "{:?} {legend:?}",
-            label.at
-        );
+        assert!(arrangement.layout.missing_height_px == 0.0);
         assert!(!fits(&chart).unwrap() && fits(&chart.clone().size(481, high)).unwrap());
         // A chart that is high enough keeps its height, but for the legend.
         let tall = fitting_height_px(&chart.size(481, 600)).unwrap();
@@ -93,7 +89,7 @@ mod tests {
         let arrangement = arrange(&narrow_family().size(481, 400)).unwrap();
         let legend = arrangement.legend.unwrap();
         let lefts: std::collections::BTreeSet<i64> =
-            legend.entries.iter().map(|(_, at)| at.0 as i64).collect();
+            legend.entries.iter().map(|e| e.at.0 as i64).collect();
         assert_eq!(lefts.len(), 2);
         assert!(legend.text_px >= 0.85 * LEGEND_TEXT && legend.text_px < LEGEND_TEXT);
     }

@@ -49,11 +49,26 @@ impl Rect {
         (self.left..=self.right).contains(&x) && (self.top..=self.bottom).contains(&y)
     }
 
+    /// Whether the other box is within this one.
+    pub(super) fn holds(&self, other: &Rect) -> bool {
+        self.contains((other.left, other.top)) && self.contains((other.right, other.bottom))
+    }
+
     pub(super) fn overlaps(&self, other: &Rect) -> bool {
         self.left < other.right
             && other.left < self.right
             && self.top < other.bottom
             && other.top < self.bottom
+    }
+
+    /// The smallest box that holds both.
+    pub(super) fn united(&self, other: &Rect) -> Self {
+        Self {
+            left: self.left.min(other.left),
+            top: self.top.min(other.top),
+            right: self.right.max(other.right),
+            bottom: self.bottom.max(other.bottom),
+        }
     }
 
     /// The point of the box nearest to `point`.
@@ -134,6 +149,14 @@ pub(super) fn between(from: Point, to: Point, part: f64) -> Point {
 
 pub(super) fn distance(from: Point, to: Point) -> f64 {
     (to.0 - from.0).hypot(to.1 - from.1)
+}
+
+/// From a point to the nearest of a segment.
+pub(super) fn distance_to_segment(point: Point, (from, to): (Point, Point)) -> f64 {
+    let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+    let along = (point.0 - from.0) * dx + (point.1 - from.1) * dy;
+    let part = along / (dx * dx + dy * dy).max(f64::MIN_POSITIVE);
+    distance(point, between(from, to, part.clamp(0.0, 1.0)))
 }
 
 /// Whether the two segments cross.

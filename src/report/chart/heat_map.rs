@@ -9,11 +9,11 @@ use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
+use super::arrange::arrange;
 use super::canvas::Canvas;
 use super::color_bar::Bar;
 use super::color_map::{LEVELS, color, level};
-use super::contour;
-use super::draw::arrange;
+use super::contour_labels::Contours;
 use super::drawing::Paint;
 use super::geometry::{Point, Rect};
 use super::layout::Layout;
@@ -46,9 +46,10 @@ pub struct HeatMap {
     /// The values at the two ends of the colour bar; `None`: from zero or the least value to the largest.
     pub value_range: Option<(f64, f64)>,
     pub value_scale: Scale,
-    /// Whether lines are drawn where the values are those labelled at the colour bar.
+    /// Whether lines are drawn where the values are those labelled at the colour bar, or, where that makes fewer than three, at values
+    /// between; each line has its value in a gap.
     pub contours: bool,
-    /// Where something was computed, if the cells between are interpolated: drawn as dots.
+    /// Where something was computed, if the cells between are interpolated: drawn as dots, as far as [`HeatMap::has_dots`].
     pub points: Vec<(f64, f64)>,
     /// What is pointed out: drawn as rings.
     pub rings: Vec<(f64, f64)>,
@@ -76,6 +77,14 @@ pub(super) fn to_scale(chart: &Chart) -> Result<Cow<'_, Chart>, ChartError> {
 }
 
 impl HeatMap {
+    /// More dots than these would hide the colours: none is drawn.
+    pub const MOST_DOTS: usize = 200;
+
+    /// Whether the points are drawn as dots.
+    pub fn has_dots(&self) -> bool {
+        (1..=Self::MOST_DOTS).contains(&self.points.len())
+    }
+
     /// Whether the map decides on the height of its chart.
     pub fn is_to_scale(&self) -> bool {
         self.shape != MapShape::Stretched
@@ -131,7 +140,7 @@ impl HeatMap {
     }
 }
 
-/// Everything below the ink: cells or discs, the colours of the bar, contour lines.
+/// Everything below the ink: cells or discs, and the colours of the bar.
 pub(super) fn colors(bar: &Bar, layout: &Layout, canvas: &mut Canvas) {
     let map = bar.map.as_deref();
     match map {
@@ -140,9 +149,6 @@ pub(super) fn colors(bar: &Bar, layout: &Layout, canvas: &mut Canvas) {
         None => {}
     }
     boxes(bar.strips(&layout.frame), bar, canvas);
-    if let Some(map) = map.filter(|map| map.contours) {
-        contours(map, bar, layout, canvas);
-    }
 }
 
 /// Boxes, each with the level of its colour: one path per colour.
@@ -213,60 +219,60 @@ fn discs(map: &HeatMap, bar: &Bar, layout: &Layout, canvas: &mut Canvas) {
 }
 
 /// So many of `count` cells along an axis, in px.
-fn along(axis: &AxisMap, cells: f64, count: usize) -> f64 {
+pub(super) fn along(axis: &AxisMap, cells: f64, count: usize) -> f64 {
     axis.from_px + (axis.to_px - axis.from_px) * cells / count as f64
 }
 
 /// What stands out against a colour of the map.
-fn contrast(level: usize) -> Color {
+pub(super) fn contrast(level: usize) -> Color {
     if level < 5 * LEVELS / 8 { WHITE } else { FRAME }
 }
 
-/// The contour lines, one path for each labelled value.
-fn contours(map: &HeatMap, bar: &Bar, layout: &Layout, canvas: &mut Canvas) {
-    // On the scale of the colours the values are closer to linear between the cells.
-    let scaled = |value| map.value_scale.linearised(value);
-    let values: Vec<Option<f64>> = map.values.iter().map(|v| v.map(scaled)).collect();
-    let px = |(x, y): Point| {
-        let x = along(&layout.x, x, map.columns);
-        (x, along(&layout.y, y, map.rows))
-    };
-    for tick in &bar.ticks.major {
+/// The contour lines, one path for each value.
+pub(super) fn contour_lines(contours: &Contours, canvas: &mut Canvas) {
+    for (color, lines) in &contours.lines {
         let paint = Paint::Stroke {
-            color: contrast(map.level(tick.value, bar.range)).rgb(),
+            color: color.rgb(),
             width: MARK_STROKE,
             round_ends: true,
         };
-        let segments = contour::segments(&values, map.columns, scaled(tick.value));
         canvas.path(paint, |pen| {
-            for (from, to) in segments {
-                pen.segment(px(from), px(to));
+            for pair in lines.iter().flat_map(|line| line.windows(2)) {
+                pen.segment(pair[0], pair[1]);
             }
         });
     }
 }
 
-/// Dots and rings, in what stands out against the cells below them.
+/// What stands out against the colour below a point.
+fn ink_at(map: &HeatMap, bar: &Bar, frame: &Rect, (x, y): Point) -> Color {
+    let part = |value: f64, count: usize| ((value * count as f64) as usize).min(count.max(1) - 1);
+    let column = part((x - frame.left) / frame.width(), map.columns);
+    let row = part((frame.bottom - y) / frame.height(), map.rows);
+    let value = map.values.get(row * map.columns + column);
+    let value = value.copied().flatten();
+    value.map_or(FRAME, |value| contrast(map.level(value, bar.range)))
+}
+
+/// Where something was computed.
 pub(super) fn dots(bar: &Bar, layout: &Layout, canvas: &mut Canvas) {
     const DOT: f64 = 1.6;
+    let Some(map) = bar.map.as_ref().filter(|map| map.has_dots()) else {
+        return;
+    };
+    for at in map.points.iter().map(|&point| layout.px(point)) {
+        canvas.disc(at, DOT, ink_at(map, bar, &layout.frame, at));
+    }
+}
+
+/// What is pointed out.
+pub(super) fn rings(bar: &Bar, layout: &Layout, canvas: &mut Canvas) {
     let Some(map) = &bar.map else {
         return;
     };
-    let frame = &layout.frame;
-    let below = |(x, y): Point| {
-        let part =
-            |value: f64, count: usize| ((value * count as f64) as usize).min(count.max(1) - 1);
-        let column = part((x - frame.left) / frame.width(), map.columns);
-        let row = part((frame.bottom - y) / frame.height(), map.rows);
-        let value = map.values.get(row * map.columns + column);
-        let value = value.copied().flatten();
-        value.map_or(FRAME, |value| contrast(map.level(value, bar.range)))
-    };
-    for at in map.points.iter().map(|&point| layout.px(point)) {
-        canvas.disc(at, DOT, below(at));
-    }
     for at in map.rings.iter().map(|&point| layout.px(point)) {
-        canvas.circle(at, 0.6 * MARK_RING, MARK_STROKE, below(at));
+        let color = ink_at(map, bar, &layout.frame, at);
+        canvas.circle(at, 0.6 * MARK_RING, MARK_STROKE, color);
     }
 }
 
@@ -288,7 +294,7 @@ fn block_mean(map: &HeatMap, block: usize, column: usize, row: usize) -> Option<
 mod tests {
     use super::*;
     use crate::report::chart::Axis;
-    use crate::report::chart::draw::Arrangement;
+    use crate::report::chart::arrange::Arrangement;
     use crate::report::chart::drawing::Shape;
 
     fn dome(columns: usize, rows: usize) -> HeatMap {
@@ -323,9 +329,9 @@ mod tests {
 
     /// The colours of the shapes that one of the functions of this file draws.
     fn painted(chart: &Chart, draw: impl Fn(&Bar, &Layout, &mut Canvas)) -> Vec<String> {
-        let Arrangement { layout, bar, .. } = laid_out(chart);
-        let mut canvas = Canvas::new(chart);
-        draw(&bar.unwrap(), &layout, &mut canvas);
+        let layout = laid_out(chart).layout;
+        let mut canvas = Canvas::new(Size::default());
+        draw(layout.bar.as_ref().unwrap(), &layout, &mut canvas);
         let color = |shape: &Shape| match shape.paint {
             Paint::Fill { color, .. } | Paint::Stroke { color, .. } => color,
         };
@@ -383,9 +389,9 @@ mod tests {
         let mut chart = chart(map.clone());
         chart.y.range = chart.x.range;
         assert_eq!(painted(&chart, turned), ["#440154", "#fde725", "#ffffff"]);
-        let Arrangement { layout, bar, .. } = laid_out(&chart);
-        let mut canvas = Canvas::new(&chart);
-        discs(&map, &bar.unwrap(), &layout, &mut canvas);
+        let layout = laid_out(&chart).layout;
+        let mut canvas = Canvas::new(Size::default());
+        discs(&map, layout.bar.as_ref().unwrap(), &layout, &mut canvas);
         let outermost = canvas.finish().unwrap()[0].path.bounds().width();
         let expected = 0.8 * layout.frame.width();
         // Single precision.

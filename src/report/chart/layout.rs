@@ -1,11 +1,13 @@
 //! Where frame, ticks and labels go, from the measured sizes of all text.
 
 use super::check::{empty, mark_name};
+use super::color_bar::Bar;
 use super::geometry::{Point, Rect};
 use super::look::*;
 use super::scale::{AxisMap, Room, range};
-use super::text::{ASCENT_EM, Anchor, DESCENT_EM, fitted_px, width_em};
+use super::text::{ASCENT_EM, Anchor, width_em};
 use super::ticks::{self, Tick, Ticks};
+use super::titles::{LEAST_SHARE_OF_SIZE, Lines, PITCH_EM, Phrase};
 use super::{AxisName, Chart, ChartError, Mark, MarkPlace, Scale, Series};
 use crate::report::number;
 
@@ -16,8 +18,12 @@ pub(super) struct Layout {
     pub(super) y: AxisMap,
     pub(super) x_ticks: Ticks,
     pub(super) y_ticks: Ticks,
-    /// Title and axis labels.
+    /// What the colours stand for.
+    pub(super) bar: Option<Bar>,
+    /// The lines of the titles: of the chart, of the axes and of the colour bar.
     pub(super) texts: Vec<PlacedText>,
+    /// How much higher (px) the picture must be for the titles along its height to be read with ease.
+    pub(super) missing_height_px: f64,
 }
 
 impl Layout {
@@ -42,6 +48,7 @@ impl Layout {
     }
 }
 
+/// A line of text.
 pub(super) struct PlacedText {
     pub(super) text: String,
     pub(super) at: Point,
@@ -64,21 +71,21 @@ pub(super) struct Reserve {
     pub(super) left: f64,
 }
 
-/// The widths at size 1 of the texts that do not depend on the layout.
+/// The texts that do not depend on the layout, measured.
 #[derive(Debug)]
 pub(super) struct Widths {
-    title: f64,
-    x_label: f64,
-    y_label: f64,
-    /// One per series; 0 without a label.
-    pub(super) series: Vec<f64>,
-    /// One per mark; 0 without a label.
+    title: Phrase,
+    x_label: Phrase,
+    y_label: Phrase,
+    /// One per series; empty without a label.
+    pub(super) series: Vec<Phrase>,
+    /// One per mark, at size 1; 0 without a label.
     pub(super) marks: Vec<f64>,
 }
 
 impl Widths {
     pub(super) fn measure(chart: &Chart) -> Self {
-        let of = |text: Option<&str>| width_em(text.unwrap_or(""), &chart.typeface);
+        let of = |text: Option<&str>| Phrase::measure(text.unwrap_or(""), &chart.typeface);
         let series = chart.series.iter();
         let marks = chart.marks.iter();
         Self {
@@ -86,13 +93,8 @@ impl Widths {
             x_label: of(Some(&chart.x.label)),
             y_label: of(Some(&chart.y.label)),
             series: series.map(|s| of(s.label.as_deref())).collect(),
-            marks: marks.map(|m| of(Some(&m.label))).collect(),
+            marks: marks.map(|m| width_em(&m.label, &chart.typeface)).collect(),
         }
-    }
-
-    /// The height (px) of a picture in which the label of y has its full size.
-    pub(super) fn height_of_y_label_px(&self) -> f64 {
-        self.y_label * LABEL_TEXT + 2.0 * MARGIN
     }
 }
 
@@ -108,6 +110,10 @@ const LEAST_FRAME: f64 = 60.0;
 /// No canvas is larger than this, so that the units of plotters stay whole numbers of 32 bits with room to spare.
 const LARGEST: u32 = 32_768;
 
+/// Lines of a title along the height, beyond which a picture should rather be higher; across there may be more.
+const MOST_UPRIGHT_LINES: usize = 2;
+const MOST_LEVEL_LINES: usize = 9;
+
 /// Lays the chart out with `reserve` kept free for a legend.
 pub(super) fn lay_out(
     chart: &Chart,
@@ -116,25 +122,20 @@ pub(super) fn lay_out(
     reserve: Reserve,
 ) -> Result<Layout, ChartError> {
     let [width, height] = [chart.size.width_px, chart.size.height_px].map(f64::from);
-    let of_text = |is_there: bool, size: f64| match is_there {
-        true => size * (ASCENT_EM + DESCENT_EM) + LABEL_GAP,
-        false => 0.0,
-    };
-    let title_height = of_text(chart.title.is_some(), TITLE_TEXT);
-    let top = crisp(MARGIN + title_height + reserve.top);
-    let below_ticks = MAJOR_TICK + TICK_GAP + TICK_TEXT * ASCENT_EM;
-    let label_height = of_text(!chart.x.label.is_empty(), LABEL_TEXT);
-    let bottom = crisp(height - MARGIN - label_height - below_ticks);
+    let titles = Titles::of(widths, (width, height), reserve);
+    let (top, bottom) = titles.ends_of_frame(height);
     checked_size(chart, bottom - top)?;
 
     let y = AxisMap::new(chart.y.scale, ranges.y, (bottom, top));
     let y_ticks = ticks::choose(y.scale, y.low, y.high, |ticks| room_for_heights(&y, ticks));
     let widest = tick_widths(chart, &y_ticks).into_iter().fold(0.0, f64::max);
-    let beside_frame =
-        MARGIN + LABEL_TEXT * (ASCENT_EM + DESCENT_EM) + LABEL_GAP + widest + TICK_GAP + MAJOR_TICK;
+    let beside_frame = MARGIN + block(&titles.y) + widest + TICK_GAP + MAJOR_TICK;
     let left = crisp(beside_frame.max(reserve.left));
 
-    let mut right = crisp(width - MARGIN - reserve.right);
+    let upright = (titles.upper, bottom + BELOW_TICKS);
+    let bar = Bar::of(chart, (top, bottom), upright)?;
+    let of_bar = bar.as_ref().map_or(0.0, Bar::total_width);
+    let mut right = crisp(width - MARGIN - reserve.right - of_bar);
     checked_size(chart, right - left)?;
     let mut x = AxisMap::new(chart.x.scale, ranges.x, (left, right));
     let x_ticks = ticks::choose(x.scale, x.low, x.high, |ticks| room_for_widths(&x, ticks));
@@ -142,7 +143,8 @@ pub(super) fn lay_out(
         (x_ticks.major.last(), tick_widths(chart, &x_ticks).last())
     {
         // The last label is centred on its tick and may reach beyond the frame.
-        let over = x.px(last.value) + label_width / 2.0 - (width - reserve.right - 0.5 * MARGIN);
+        let free = width - reserve.right - of_bar - 0.5 * MARGIN;
+        let over = x.px(last.value) + label_width / 2.0 - free;
         right = crisp(right - over.max(0.0));
         x.to_px = right;
     }
@@ -153,13 +155,118 @@ pub(super) fn lay_out(
         right,
         bottom,
     };
+    let mut texts = titles.placed(&frame, (width, height));
+    let mut missing_height_px = missing(&titles.y, height - MARGIN - titles.upper);
+    if let Some(bar) = &bar {
+        texts.extend(bar.title(&frame));
+        missing_height_px = missing_height_px.max(missing(&bar.title, upright.1 - upright.0));
+    }
     Ok(Layout {
         frame,
         x,
         y,
         x_ticks,
         y_ticks,
-        texts: texts(chart, widths, &frame, (height, reserve)),
+        bar,
+        texts,
+        missing_height_px,
+    })
+}
+
+/// What a title is short of (px) along its side.
+fn missing(title: &Lines, room_px: f64) -> f64 {
+    (title.widest_em * LEAST_SHARE_OF_SIZE * LABEL_TEXT - room_px).max(0.0)
+}
+
+/// The height (px) of a title with the gap that parts it from what it names; 0 without one.
+pub(super) fn block(title: &Lines) -> f64 {
+    match title.lines.is_empty() {
+        true => 0.0,
+        false => title.height_px() + LABEL_GAP,
+    }
+}
+
+/// A title that runs upwards between these two ends (px).
+pub(super) fn upright_title(label: &Phrase, room_px: f64) -> Lines {
+    label.within(LABEL_TEXT, room_px, MOST_UPRIGHT_LINES)
+}
+
+/// From the frame to the lower edge of the labels of the ticks below it.
+const BELOW_TICKS: f64 = MAJOR_TICK + TICK_GAP + TICK_TEXT * ASCENT_EM;
+
+/// The titles of a chart and of its axes, in lines.
+struct Titles {
+    chart: Lines,
+    x: Lines,
+    y: Lines,
+    /// Where (px) the picture begins below its title and a legend.
+    upper: f64,
+}
+
+impl Titles {
+    fn of(widths: &Widths, (width, height): (f64, f64), reserve: Reserve) -> Self {
+        let across = width - 2.0 * MARGIN;
+        let chart = widths.title.within(TITLE_TEXT, across, MOST_LEVEL_LINES);
+        let upper = MARGIN + block(&chart) + reserve.top;
+        let y = upright_title(&widths.y_label, height - MARGIN - upper);
+        // The title of y has the corner.
+        let x_room = across - block(&y);
+        let x = widths.x_label.within(LABEL_TEXT, x_room, MOST_LEVEL_LINES);
+        Self { chart, x, y, upper }
+    }
+
+    /// The upper and the lower end of the frame.
+    fn ends_of_frame(&self, height: f64) -> (f64, f64) {
+        let bottom = height - MARGIN - block(&self.x) - BELOW_TICKS;
+        (crisp(self.upper), crisp(bottom))
+    }
+
+    fn placed(&self, frame: &Rect, (width, height): (f64, f64)) -> Vec<PlacedText> {
+        let middle = (frame.left + frame.right) / 2.0;
+        let title = centered(&self.chart, middle, (MARGIN, width - MARGIN));
+        let x = centered(&self.x, middle, (MARGIN + block(&self.y), width - MARGIN));
+        let y_middle = (frame.top + frame.bottom) / 2.0;
+        let y = centered(&self.y, y_middle, (self.upper, height - MARGIN));
+        let x_top = height - MARGIN - self.x.height_px();
+        let title = level(&self.chart, title, MARGIN);
+        let x = level(&self.x, x, x_top);
+        title.chain(x).chain(upwards(&self.y, y, MARGIN)).collect()
+    }
+}
+
+/// The middle of a title, as near to this one as its ends allow.
+pub(super) fn centered(title: &Lines, middle: f64, (from, to): (f64, f64)) -> f64 {
+    let half = title.widest_em * title.size_px / 2.0;
+    middle.min(to - half).max(from + half)
+}
+
+/// The lines of a title about this middle, the first below `top`.
+fn level(title: &Lines, middle: f64, top: f64) -> impl Iterator<Item = PlacedText> {
+    baselines(title, top).map(move |(text, y, size)| PlacedText {
+        text,
+        at: (middle, y),
+        size,
+        anchor: Anchor::Middle,
+    })
+}
+
+/// The lines of a title that runs upwards about this middle, the first right of `left`.
+pub(super) fn upwards(title: &Lines, middle: f64, left: f64) -> impl Iterator<Item = PlacedText> {
+    baselines(title, left).map(move |(text, x, size)| PlacedText {
+        text,
+        at: (x, middle),
+        size,
+        anchor: Anchor::Upwards,
+    })
+}
+
+/// Each line with its baseline, from where the letters of the first begin, and its size.
+fn baselines(title: &Lines, from: f64) -> impl Iterator<Item = (String, f64, f64)> {
+    let size = title.size_px;
+    let lines = title.lines.clone().into_iter().enumerate();
+    lines.map(move |(place, line)| {
+        let baseline = from + size * (ASCENT_EM + PITCH_EM * place as f64);
+        (line, baseline, size)
     })
 }
 
@@ -219,59 +326,16 @@ fn room_for_heights(axis: &AxisMap, ticks: &[Tick]) -> bool {
         .all(|pair| axis.px(pair[0].value) - axis.px(pair[1].value) >= 2.6 * TICK_TEXT)
 }
 
-fn texts(
-    chart: &Chart,
-    widths: &Widths,
-    frame: &Rect,
-    (height, reserve): (f64, Reserve),
-) -> Vec<PlacedText> {
-    // About the middle of its side of the frame, but within these ends; too long for them, set smaller rather than cut off.
-    let placed = |size: f64, width_em: f64, side: (f64, f64), ends: (f64, f64)| {
-        let size = fitted_px(size, width_em, ends.1 - ends.0);
-        let half = width_em * size / 2.0;
-        let middle = (side.0 + side.1) / 2.0;
-        (size, middle.min(ends.1 - half).max(ends.0 + half))
-    };
-    let level = |text: &String, size: f64, width_em: f64, y: f64| {
-        let ends = (MARGIN, frame.right);
-        let (size, x) = placed(size, width_em, (frame.left, frame.right), ends);
-        PlacedText {
-            text: text.clone(),
-            at: (x, y),
-            size,
-            anchor: Anchor::Middle,
-        }
-    };
-    // A legend above may begin as far left as the label of y stands.
-    let y_from = if reserve.top > 0.0 { frame.top } else { MARGIN };
-    let ends = (y_from, height - MARGIN);
-    let (size, y) = placed(LABEL_TEXT, widths.y_label, (frame.top, frame.bottom), ends);
-    let upwards = PlacedText {
-        text: chart.y.label.clone(),
-        at: (MARGIN + LABEL_TEXT * ASCENT_EM, y),
-        size,
-        anchor: Anchor::Upwards,
-    };
-    let below = height - MARGIN - LABEL_TEXT * DESCENT_EM;
-    let across = level(&chart.x.label, LABEL_TEXT, widths.x_label, below);
-    let above = MARGIN + TITLE_TEXT * ASCENT_EM;
-    let title = chart.title.as_ref();
-    let title = title.map(|title| level(title, TITLE_TEXT, widths.title, above));
-    [across, upwards].into_iter().chain(title).collect()
-}
-
-/// The ranges of both axes: those given, otherwise from the data and marks.
-pub(super) fn ranges(chart: &Chart) -> Result<Ranges, ChartError> {
+/// The ranges of both axes: those given, otherwise from the data and marks, with this share of the height of the data left free
+/// above labelled peaks.
+pub(super) fn ranges(chart: &Chart, head_room: f64) -> Result<Ranges, ChartError> {
     let [xs, ys] = extents(chart)?;
     let side = match chart.series.iter().all(is_plain_function) {
         true => 0.0,
         false => 0.025,
     };
-    // A labelled peak needs room for its label above it.
-    let labelled_point =
-        |mark: &Mark| !mark.label.is_empty() && matches!(mark.place, MarkPlace::Point { .. });
-    let above = match chart.marks.iter().any(labelled_point) {
-        true => 0.12,
+    let above = match chart.marks.iter().any(Mark::is_labelled_point) {
+        true => head_room,
         false => 0.05,
     };
     let x_room = Room {

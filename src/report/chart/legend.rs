@@ -4,7 +4,7 @@ use super::curves::Obstacles;
 use super::geometry::{Point, Rect};
 use super::layout::{Layout, Reserve, Widths, crisp};
 use super::look::*;
-use super::text::fitted_px;
+use super::titles::{LEAST_SHARE_OF_SIZE, Lines, PITCH_EM};
 use super::{Chart, LegendPlace, Series};
 
 /// A legend, in its place or with its upper left corner at the origin.
@@ -14,12 +14,21 @@ pub(super) struct Legend {
     pub(super) text_px: f64,
     /// Inside the frame it stands on white with an outline, outside on nothing.
     pub(super) framed: bool,
-    /// For each entry the series it stands for and the left end of its sample, at half the height of the row.
-    pub(super) entries: Vec<(usize, Point)>,
+    pub(super) entries: Vec<Entry>,
+}
+
+/// A series in the legend.
+#[derive(Debug)]
+pub(super) struct Entry {
+    /// Its place in the chart.
+    pub(super) series: usize,
+    /// The left end of its sample, at half the height of its first line.
+    pub(super) at: Point,
+    pub(super) lines: Vec<String>,
 }
 
 impl Legend {
-    /// All labelled series in one column at most `room` px wide; `None` where no series has a label.
+    /// All labelled series in one column at most `room` px wide, long labels in several lines; `None` where no series has a label.
     pub(super) fn column(chart: &Chart, widths: &Widths, room: f64) -> Option<Self> {
         Self::grid(chart, widths, room, 1)
     }
@@ -27,52 +36,58 @@ impl Legend {
     /// All labelled series in as many columns as `room` px hold.
     pub(super) fn rows(chart: &Chart, widths: &Widths, room: f64) -> Option<Self> {
         let most = labelled(chart).count();
-        let grid = |columns: usize| Self::grid(chart, widths, room, columns);
-        // The widest that keeps the text at its full size; one column sets it smaller if it must.
-        let is_full = |grid: Self| grid.text_px == LEGEND_TEXT;
-        let full = (1..=most)
-            .rev()
-            .find(|&columns| grid(columns).is_some_and(is_full));
-        // A long column gives way to two with text a little smaller.
-        if full.unwrap_or(1) == 1 && most >= LONG_COLUMN {
-            let smaller = grid(2).filter(|g| g.text_px >= LEAST_SHARE_OF_TEXT * LEGEND_TEXT);
-            if smaller.is_some() {
-                return smaller;
+        // The most columns that keep the text at its full size, else two with text a little smaller.
+        for columns in (2..=most).rev() {
+            let grid = Self::grid(chart, widths, room, columns);
+            let suits =
+                |grid: &Self| grid.text_px == LEGEND_TEXT || (columns == 2 && most >= LONG_COLUMN);
+            if let Some(grid) = grid.filter(suits) {
+                return Some(grid);
             }
         }
-        grid(full.unwrap_or(1))
+        Self::grid(chart, widths, room, 1)
     }
 
+    /// `None` too where the labels are too long to stand in several columns.
     fn grid(chart: &Chart, widths: &Widths, room: f64, columns: usize) -> Option<Self> {
-        let width = |series: usize| widths.series.get(series).copied().unwrap_or(0.0);
-        let entries: Vec<usize> = labelled(chart).collect();
-        let widest = entries
-            .iter()
-            .map(|&series| width(series))
-            .reduce(f64::max)?;
+        let series: Vec<usize> = labelled(chart).collect();
         // Rows are filled evenly: five entries in at most four columns make three and two.
-        let rows = entries.len().div_ceil(columns);
-        let columns = entries.len().div_ceil(rows);
-        let gaps =
-            columns as f64 * (LEGEND_SAMPLE + LEGEND_GAP) + (columns - 1) as f64 * COLUMN_GAP;
-        let text_room = (room - 2.0 * LEGEND_PADDING - gaps) / columns as f64;
-        let text_px = fitted_px(LEGEND_TEXT, widest, text_room).max(1.0);
+        let rows = series.len().div_ceil(columns);
+        let columns = series.len().div_ceil(rows.max(1));
+        let gaps = columns as f64 * (LEGEND_SAMPLE + LEGEND_GAP)
+            + columns.saturating_sub(1) as f64 * COLUMN_GAP;
+        let text_room = (room - 2.0 * LEGEND_PADDING - gaps) / columns.max(1) as f64;
+        let labels = || series.iter().filter_map(|&place| widths.series.get(place));
+        let longest = labels().map(|label| label.width_em).fold(0.0, f64::max);
+        let is_long = longest * LEAST_SHARE_OF_SIZE * LEGEND_TEXT > text_room;
+        if series.is_empty() || (columns > 1 && is_long) {
+            return None;
+        }
+        let lines = labels().map(|label| label.within(LEGEND_TEXT, text_room, MOST_LINES));
+        let lines: Vec<Lines> = lines.collect();
+        let text_px = lines.iter().map(|l| l.size_px).fold(LEGEND_TEXT, f64::min);
+        let widest = lines.iter().map(|l| l.widest_em).fold(0.0, f64::max);
         let pitch = LEGEND_SAMPLE + LEGEND_GAP + widest * text_px + COLUMN_GAP;
-        let at = |place: usize| {
-            let (column, row) = (place % columns, place / columns);
-            (
-                LEGEND_PADDING + column as f64 * pitch,
-                LEGEND_PADDING / 2.0 + (row as f64 + 0.5) * LEGEND_ROW,
-            )
-        };
         let width = (columns as f64 * pitch - COLUMN_GAP + 2.0 * LEGEND_PADDING).ceil();
-        let height = (rows as f64 * LEGEND_ROW + LEGEND_PADDING).ceil();
-        let entries = entries.into_iter().enumerate();
+        let mut top = LEGEND_PADDING / 2.0;
+        let mut entries = Vec::new();
+        for (row, of_row) in lines.chunks(columns).enumerate() {
+            for (column, lines) in of_row.iter().enumerate() {
+                let x = LEGEND_PADDING + column as f64 * pitch;
+                entries.push(Entry {
+                    series: series[row * columns + column],
+                    at: (x, top + LEGEND_ROW / 2.0),
+                    lines: lines.lines.clone(),
+                });
+            }
+            let most = of_row.iter().map(|lines| lines.lines.len()).max();
+            top += LEGEND_ROW + PITCH_EM * text_px * (most.unwrap_or(1) - 1) as f64;
+        }
         Some(Self {
-            rect: Rect::at(0.0, 0.0, width, height),
+            rect: Rect::at(0.0, 0.0, width, (top + LEGEND_PADDING / 2.0).ceil()),
             text_px,
             framed: true,
-            entries: entries.map(|(place, series)| (series, at(place))).collect(),
+            entries,
         })
     }
 
@@ -80,7 +95,7 @@ impl Legend {
     fn at(mut self, (left, top): Point) -> Self {
         let (left, top) = (crisp(left), crisp(top));
         self.rect = Rect::at(left, top, self.rect.width(), self.rect.height());
-        for (_, (x, y)) in &mut self.entries {
+        for Entry { at: (x, y), .. } in &mut self.entries {
             (*x, *y) = (left + *x, top + *y);
         }
         self
@@ -90,7 +105,7 @@ impl Legend {
     pub(super) fn reserve(&self, side: Outside) -> Reserve {
         let (right, top) = match side {
             Outside::Right => (self.rect.width(), 0.0),
-            Outside::Above => (0.0, self.rect.height()),
+            Outside::Above => (0.0, self.rect.height() + LEGEND_LIFT),
         };
         Reserve {
             right,
@@ -107,7 +122,7 @@ impl Legend {
             Outside::Above => {
                 let centered = (frame.left + frame.right - own.width()) / 2.0;
                 let left = centered.min(frame.right - own.width()).max(MARGIN);
-                (left, frame.top - own.height() - 1.0)
+                (left, frame.top - own.height() - LEGEND_LIFT)
             }
         };
         Self {
@@ -166,15 +181,17 @@ impl Legend {
         }
     }
 
-    /// Whether the frame of a layout without it stays wide enough with it at the right.
-    pub(super) fn leaves_room_beside(&self, layout: &Layout) -> bool {
-        layout.frame.width() - self.rect.width() >= LEAST_FRAME_BESIDE
+    /// Whether it can stand beside the frame: no colour bar is there, the frame of a layout without it stays wide enough, and it is
+    /// no higher than the frame.
+    pub(super) fn fits_beside(&self, layout: &Layout) -> bool {
+        layout.bar.is_none()
+            && layout.frame.width() - self.rect.width() >= LEAST_FRAME_BESIDE
+            && self.rect.height() <= layout.frame.height()
     }
 
     /// Whether it reads better in a column beside the frame than in rows above it.
     pub(super) fn suits_right(&self, layout: &Layout) -> bool {
-        self.rect.width() <= 0.27 * layout.frame.width()
-            && self.rect.height() <= layout.frame.height()
+        self.rect.width() <= 0.27 * layout.frame.width() && self.fits_beside(layout)
     }
 }
 
@@ -185,9 +202,12 @@ pub(super) enum Outside {
     Above,
 }
 
-/// Entries from which one column above the frame is long, and how much smaller their text may be to make two.
+/// Entries from which one column above the frame is long: two with text a little smaller are better.
 const LONG_COLUMN: usize = 5;
-const LEAST_SHARE_OF_TEXT: f64 = 0.85;
+/// Lines of a label, beyond which it is set smaller.
+const MOST_LINES: usize = 9;
+/// From a legend above to the frame, so that it keeps clear of the uppermost label of the ticks.
+const LEGEND_LIFT: f64 = 2.0;
 /// The least width of a frame beside which a legend goes.
 const LEAST_FRAME_BESIDE: f64 = 240.0;
 /// Between the columns of a legend in rows.

@@ -6,6 +6,7 @@ pub(super) const TICK_TEXT: f64 = 16.0;
 pub(super) const LABEL_TEXT: f64 = 18.0;
 pub(super) const LEGEND_TEXT: f64 = 16.0;
 pub(super) const MARK_TEXT: f64 = 16.0;
+pub(super) const CONTOUR_TEXT: f64 = 14.0;
 pub(super) const TITLE_TEXT: f64 = 19.0;
 
 /// Free space between the outermost ink and the edge of the picture.

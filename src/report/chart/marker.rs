@@ -2,29 +2,45 @@
 
 use super::canvas::Canvas;
 use super::geometry::Point;
-use super::look::{MARKER_EDGE, MARKER_RADIUS, WHITE};
+use super::look::{MARKER_RADIUS, WHITE};
 use super::{Color, Marker};
 
-/// Draws one marker. The sizes are balanced so that all shapes carry about the same weight.
-pub(super) fn draw(canvas: &mut Canvas, marker: Marker, at: Point, color: Color) {
+/// Draws one marker with a white edge of this width (px), which may be 0. The sizes are balanced so that all shapes carry about the
+/// same weight.
+pub(super) fn draw(canvas: &mut Canvas, marker: Marker, at: Point, color: Color, edge: f64) {
     let radius = MARKER_RADIUS;
     match marker {
         Marker::Disc => {
-            canvas.disc(at, radius + MARKER_EDGE, WHITE);
+            if edge > 0.0 {
+                canvas.disc(at, radius + edge, WHITE);
+            }
             canvas.disc(at, radius, color);
         }
         Marker::Ring => {
-            canvas.disc(at, radius + MARKER_EDGE, WHITE);
+            canvas.disc(at, radius + edge, WHITE);
             canvas.circle(at, radius - 0.4, 1.7, color);
         }
-        Marker::Square => polygon(canvas, at, radius * 1.28, &regular::<4>(45.0), color),
-        Marker::Diamond => polygon(canvas, at, radius * 1.4, &regular::<4>(0.0), color),
+        Marker::Square => polygon(
+            canvas,
+            at,
+            radius * 1.28,
+            (&regular::<4>(45.0), edge),
+            color,
+        ),
+        Marker::Diamond => polygon(canvas, at, radius * 1.4, (&regular::<4>(0.0), edge), color),
         Marker::Triangle => {
             // The centre of mass is on the point, so that the shape does not seem to sit too high.
-            polygon(canvas, at, radius * 1.45, &regular::<3>(-90.0), color);
+            polygon(
+                canvas,
+                at,
+                radius * 1.45,
+                (&regular::<3>(-90.0), edge),
+                color,
+            );
         }
         Marker::Cross => {
-            for (width, color) in [(2.0 + 2.0 * MARKER_EDGE, WHITE), (2.0, color)] {
+            let strokes = [(2.0 + 2.0 * edge, WHITE), (2.0, color)];
+            for (width, color) in strokes.into_iter().skip(usize::from(edge == 0.0)) {
                 for (dx, dy) in [(1.0, 1.0), (1.0, -1.0)] {
                     // The white is longer too, so that the ends are edged as the sides are.
                     let arm = 0.85 * radius + (width - 2.0) / 3.0;
@@ -47,10 +63,17 @@ fn regular<const N: usize>(start_degrees: f64) -> [Point; N] {
     })
 }
 
-fn polygon(canvas: &mut Canvas, at: Point, radius: f64, shape: &[Point], color: Color) {
+fn polygon(
+    canvas: &mut Canvas,
+    at: Point,
+    radius: f64,
+    (shape, edge): (&[Point], f64),
+    color: Color,
+) {
     // An edge of even width needs a radius that grows by width / cos(π/n).
-    let edge = MARKER_EDGE / (std::f64::consts::PI / shape.len() as f64).cos();
-    for (radius, color) in [(radius + edge, WHITE), (radius, color)] {
+    let edge = edge / (std::f64::consts::PI / shape.len() as f64).cos();
+    let rims = [(radius + edge, WHITE), (radius, color)];
+    for (radius, color) in rims.into_iter().skip(usize::from(edge == 0.0)) {
         let corners: Vec<Point> = shape
             .iter()
             .map(|(x, y)| (at.0 + x * radius, at.1 + y * radius))

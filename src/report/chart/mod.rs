@@ -28,12 +28,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::figures::font::Typeface;
 
+mod arrange;
 mod canvas;
 mod check;
 mod color_bar;
 mod color_map;
 mod color_scale;
 mod contour;
+mod contour_labels;
 mod curves;
 mod draw;
 mod drawing;
@@ -43,10 +45,13 @@ mod fitting;
 mod geometry;
 mod grey;
 mod heat_map;
+mod ink;
+mod layers;
 mod layout;
 mod legend;
 mod look;
 mod marker;
+mod notes;
 mod palette;
 mod pdf;
 mod place;
@@ -57,6 +62,7 @@ mod stroke;
 mod svg;
 mod text;
 mod ticks;
+mod titles;
 
 pub use color_scale::ColorScale;
 pub use draw::stack;
@@ -64,6 +70,7 @@ pub use drawing::Drawing;
 pub use error::{AxisName, ChartError};
 pub use fitting::{fits, fitting_height_px};
 pub use heat_map::{HeatMap, MapShape};
+pub use ink::Overlap;
 pub use palette::Color;
 pub use text::{literal, plain};
 
@@ -453,6 +460,11 @@ impl Mark {
 
     pub fn horizontal(y: f64, label: impl Into<String>) -> Self {
         Self::new(MarkPlace::Horizontal { y }, label)
+    }
+
+    /// Whether it is a ring with a label.
+    fn is_labelled_point(&self) -> bool {
+        !self.label.is_empty() && matches!(self.place, MarkPlace::Point { .. })
     }
 
     fn new(place: MarkPlace, label: impl Into<String>) -> Self {

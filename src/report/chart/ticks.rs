@@ -15,6 +15,17 @@ pub(super) struct Ticks {
 }
 
 impl Ticks {
+    /// Leaves the labels of every second, third ... tick, so that no more than these have one.
+    fn keep_at_most(&mut self, most: usize) {
+        let stride = (self.major.len() - 1).div_ceil(most - 1).max(1);
+        let all = std::mem::take(&mut self.major).into_iter().enumerate();
+        let (kept, left): (Vec<_>, Vec<_>) = all.partition(|(place, _)| place % stride == 0);
+        self.major = kept.into_iter().map(|(_, tick)| tick).collect();
+        self.minor
+            .extend(left.into_iter().map(|(_, tick)| tick.value));
+        self.minor.sort_by(f64::total_cmp);
+    }
+
     /// The value and the length (px) of every tick.
     pub(super) fn lengths(&self) -> impl Iterator<Item = (f64, f64)> {
         let minor = self.minor.iter().map(|&value| (value, MINOR_TICK));
@@ -66,6 +77,40 @@ pub(super) fn choose(scale: Scale, low: f64, high: f64, fits: impl Fn(&[Tick]) -
         ticks = with_at_most(most);
     }
     ticks
+}
+
+/// Fewer contour lines than these say little of the shape of a map.
+const LEAST_CONTOURS: usize = 3;
+
+/// The values between the least and the largest at which contour lines are drawn: those named at the colour bar from `low` to `high`,
+/// or, where too few, steps of 1, 2 or 5 between them.
+pub(super) fn of_contours(
+    scale: Scale,
+    (low, high): (f64, f64),
+    (least, largest): (f64, f64),
+    named: &[Tick],
+) -> Vec<Tick> {
+    let reached = |ticks: &[Tick]| -> Vec<Tick> {
+        let is_between = |tick: &&Tick| least < tick.value && tick.value < largest;
+        ticks.iter().filter(is_between).cloned().collect()
+    };
+    let at_bar = reached(named);
+    if at_bar.len() >= LEAST_CONTOURS || least >= largest {
+        return at_bar;
+    }
+    if scale == Scale::Log {
+        let (first, last) = (decade_from(low) - 1, decade_to(high) + 1);
+        let finer = reached(&one_two_five(low, high, first, last).major);
+        if finer.len() >= LEAST_CONTOURS {
+            return finer;
+        }
+    }
+    let finer =
+        (LEAST_CONTOURS..=MOST_NUMBERS).map(|most| reached(&linear(least, largest, most).major));
+    finer
+        .into_iter()
+        .find(|ticks| ticks.len() >= LEAST_CONTOURS)
+        .unwrap_or(at_bar)
 }
 
 /// Steps of 1, 2 or 5 times a power of ten; the finest for which there are at most `most` labels.
@@ -125,8 +170,9 @@ fn log(low: f64, high: f64, most: usize) -> Ticks {
     if last > first {
         return decades(low, high, first, last, most);
     }
-    let fine = one_two_five(low, high, first - 1, last + 1);
+    let mut fine = one_two_five(low, high, first - 1, last + 1);
     if fine.major.len() >= 3 {
+        fine.keep_at_most(most.max(2));
         fine
     } else {
         linear(low, high, most.min(MOST_NUMBERS))
@@ -276,6 +322,49 @@ mod tests {
 
     fn labels(ticks: &Ticks) -> Vec<&str> {
         ticks.major.iter().map(|tick| tick.label.as_str()).collect()
+    }
+
+    #[test]
+    fn contours_are_at_the_values_of_the_bar_or_at_finer_ones_where_those_are_few() {
+        let of = |scale, bar: (f64, f64), data| {
+            let named = choose(scale, bar.0, bar.1, |_| true).major;
+            let contours = of_contours(scale, bar, data, &named).into_iter();
+            contours.map(|tick| tick.label).collect::<Vec<_>>()
+        };
+        assert_eq!(
+            of(Scale::Linear, (0.0, 5.0), (0.5, 4.5)),
+            ["1", "2", "3", "4"]
+        );
+        assert_eq!(
+            of(Scale::Linear, (0.0, 5.0), (2.1, 2.9)),
+            ["2.2", "2.4", "2.6", "2.8"]
+        );
+        assert_eq!(
+            of(Scale::Log, (1.0, 50.0), (1.0, 50.0)),
+            ["2", "5", "10", "20"]
+        );
+        assert_eq!(of(Scale::Linear, (0.0, 5.0), (2.0, 2.0)), [""; 0]);
+    }
+
+    #[test]
+    fn less_than_a_decade_without_room_for_all_labels_has_every_second() {
+        let all = log(0.004, 0.025, 9);
+        assert_eq!(labels(&all), ["0.005", "0.01", "0.02"]);
+        let few = log(0.0045, 0.0095, 2);
+        assert_eq!(labels(&few).len(), 2);
+        let two = choose(Scale::Log, 0.11, 0.95, |ticks| ticks.len() < 3);
+        assert_eq!(two.major.len(), 2, "{two:?}");
+        // All ticks are there still.
+        let mut all = one_two_five(0.11, 0.95, -2, 0);
+        let values = all.major.iter().map(|tick| tick.value);
+        let values: Vec<f64> = values.collect();
+        all.keep_at_most(2);
+        assert!(
+            all.minor.is_sorted()
+                && values.iter().all(|v| {
+                    all.minor.contains(v) || all.major.iter().any(|tick| tick.value == *v)
+                })
+        );
     }
 
     #[test]

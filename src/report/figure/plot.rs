@@ -510,7 +510,12 @@ impl Plot {
             .legend(self.legend)
             .all_series(bands)
             .all_series(series)
-            .all_marks(self.marks.iter().filter(|m| self.holds(m)).filter_map(|m| on.mark(m)));
+            .all_marks(
+                self.marks
+                    .iter()
+                    .filter(|m| self.holds(m))
+                    .filter_map(|m| on.mark(m)),
+            );
         chart.color_scale = self.color_scale.clone();
         chart
     }

@@ -110,6 +110,7 @@ impl Press<'_> {
             source,
         };
         let drawing = picture.as_asked(self.plan, caption).map_err(failed)?;
+        let caption = &*drawing.captioned(caption);
         let drawing = drawing
             .described(caption)
             .stamped(self.pictures.sweep_hash());
