@@ -214,10 +214,15 @@ impl Pictures {
             return PreEscaped(mark("files", name));
         }
         let pictures = lock(&self.by_name);
-        let endings = pictures.get(name).map(|shown| shown.endings.clone());
+        let mut endings: Vec<&String> = match pictures.get(name) {
+            Some(shown) => shown.endings.iter().collect(),
+            None => Vec::new(),
+        };
+        // Pictures first.
+        endings.sort_by_key(|ending| [DATA, CAPTION].iter().position(|last| last == ending));
         html! {
-            @for ending in endings.unwrap_or_default() {
-                " " a href=(Place::Figure(name, &ending).to_string()) { (called(&ending)) }
+            @for ending in endings {
+                " " a href=(Place::Figure(name, ending).to_string()) { (called(ending)) }
             }
         }
     }

@@ -128,7 +128,8 @@ function drawPlot(host) {
   const scaled = prepared(spec);
   const width = Math.max(240, host.printed || host.clientWidth || 640);
   host.drawnWidth = host.clientWidth;
-  const height = spec.height || Math.round(Math.min(300, Math.max(210, width * 0.62)));
+  const usual = spec.height || Math.round(Math.min(300, Math.max(210, width * 0.62)));
+  const height = host.printed ? Math.min(usual, Math.max(160, 0.42 * width)) : usual;
   const box = { left: 0, right: width - 14, top: 10, bottom: height - 44 };
   const ys = scaled.series.flatMap((s) => s.py.flatMap((v, i) => (v !== null && s.pe && s.pe[i] !== null ? [v, v - s.pe[i], v + s.pe[i]] : [v])));
   const xr = rangeOf(scaled.series.flatMap((s) => s.px), spec.x), yr = rangeOf(ys, spec.y);
