@@ -46,7 +46,7 @@ def test_a_file_gives_what_the_program_writes(program: str, tmp_path: Path) -> N
         assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "program" / name).read_bytes(), name
     assert cd.read(tmp_path / "program") == result
     subprocess.run([program, "report", str(tmp_path / "python")], check=True, capture_output=True)
-    assert (tmp_path / "python/history.svg").is_file() and (tmp_path / "python/index.html").is_file()
+    assert (tmp_path / "python/figures/history.svg").is_file() and (tmp_path / "python/index.html").is_file()
 
 
 def test_fields_and_profiles_share_the_memory_of_the_result_and_come_back_from_a_folder(tmp_path: Path) -> None:

@@ -20,7 +20,7 @@ LOOPS = sorted((ROOT / "sweeps/measured-loops").glob("*.csv"))
 def drawn_by(program: str, folder: Path, figure: str) -> None:
     """The program draws what Python has saved."""
     subprocess.run([program, "report", str(folder)], check=True, capture_output=True)
-    assert (folder / "index.html").is_file() and (folder / f"{figure}.svg").is_file()
+    assert (folder / "index.html").is_file() and (folder / f"figures/{figure}.svg").is_file()
 
 
 def test_files_give_what_the_program_writes(program: str, tmp_path: Path) -> None:
@@ -142,7 +142,7 @@ def test_an_identification_file_gives_what_the_program_writes(program: str, tmp_
     subprocess.run(arguments, check=True, capture_output=True)
     found = cd.identify(file=file, overrides={"identify.branches": 3})
     found.save(tmp_path / "python")
-    for name in sorted(path.name for path in out.iterdir() if path.is_file()):
+    for name in sorted(path.relative_to(out) for path in out.rglob("*") if path.is_file()):
         assert (tmp_path / "python" / name).read_bytes() == (out / name).read_bytes(), name
     drawn_by(program, tmp_path / "python", "moduli")
     again = pickle.loads(pickle.dumps(found))

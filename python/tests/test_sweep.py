@@ -434,7 +434,7 @@ def test_a_map_of_an_array_has_an_offset_and_may_be_deformable(tmp_path: Path) -
 def test_figures_are_those_of_the_program_and_written_as_their_ending_says(result: cd.SweepResult, tmp_path: Path, program: str) -> None:
     result.save(tmp_path / "out")
     run_program(program, "report", tmp_path / "out")
-    drawn = {path.stem for path in (tmp_path / "out").glob("*.svg")}
+    drawn = {path.stem for path in (tmp_path / "out/figures").glob("*.svg")}
     read = cd.read(tmp_path / "out", cd.SweepResult)
     assert set(result.figures) == set(read.figures) == drawn and "energy-loss" in drawn
     figure = result.figures["energy-loss"]

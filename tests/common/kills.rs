@@ -122,10 +122,11 @@ pub fn kill_at_any_moment(span: Duration, seed: u64, start: impl Fn() -> Child, 
     }
 }
 
-/// When the newest checkpoint was written.
+/// When the newest file of a folder was written.
 pub fn newest(folder: &Path) -> Option<SystemTime> {
     let entries = fs::read_dir(folder).ok()?.flatten();
-    let times = entries.filter_map(|entry| entry.metadata().ok()?.modified().ok());
+    let files = entries.filter_map(|entry| entry.metadata().ok().filter(fs::Metadata::is_file));
+    let times = files.filter_map(|file| file.modified().ok());
     times.max()
 }
 

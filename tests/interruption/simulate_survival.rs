@@ -108,7 +108,7 @@ fn a_damaged_checkpoint_is_named_and_not_used() {
     stopped(child, "-KILL");
     damage(&path);
     // What was being written when the process was killed is swept out of every folder.
-    for name in ["profiles", "fields"] {
+    for name in ["cases/profiles", "cases/fields"] {
         leave_half_a_file(&out.join(name));
     }
     let said = simulate(&place, "").ended(0).stderr;

@@ -1,5 +1,5 @@
-//! `index.html`: everything about a result in one page that needs no network, no other file and, for its figures and tables,
-//! not even its own script. Style and script are files beside this one.
+//! `index.html`: everything about a result in one page that needs no network and, for its main figures and tables, neither another
+//! file nor its own script; further figures it shows from `figures/`. Style and script are files beside this one.
 
 mod answer;
 mod cases_table;

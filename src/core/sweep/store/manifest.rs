@@ -273,18 +273,18 @@ impl Manifest {
         self.remove(listed.iter())
     }
 
-    /// Removes the files of a folder in the folder.
+    /// Removes the files of a folder in the folder; `has_others`: those too that other processes have written there since.
     ///
     /// # Errors
     /// [`StoreError::Write`] with the path.
-    pub(super) fn remove_below(&self, below: &Path) -> Result<(), StoreError> {
+    pub(super) fn remove_below(&self, below: &Path, has_others: bool) -> Result<(), StoreError> {
         if !self.folder.join(below).exists() {
             return Ok(());
         }
         let mut state = self.state();
         let is_below = |name: &&String| Path::new(name).starts_with(below);
         // Of a single case another process seldom knows more.
-        if below.components().count() == 1 || !state.listed.iter().any(|name| is_below(&name)) {
+        if has_others || !state.listed.iter().any(|name| is_below(&name)) {
             self.look_again(&mut state)?;
         }
         self.remove(state.listed.iter().filter(is_below))

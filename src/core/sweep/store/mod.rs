@@ -330,7 +330,7 @@ impl Store {
     pub(crate) fn remove_checkpoints(&self, case: &str) {
         for folder in files::checkpoints_of(case) {
             // Left behind, they cost nothing but their place.
-            let _ = self.manifest.remove_below(&folder);
+            let _ = self.manifest.remove_below(&folder, case.is_empty());
         }
     }
 
