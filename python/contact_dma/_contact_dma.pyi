@@ -6,6 +6,7 @@ from ._toml import Quantity
 from .materials import ModulusKind
 from _typeshed import SupportsGetItem
 from os import PathLike
+from pathlib import Path
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
 from typing_extensions import disjoint_base
 
@@ -729,6 +730,12 @@ class Warning:
 def calls() -> str:
     """
     What takes keys of the input files as its arguments, as JSON.
+    """
+
+def files_of(folder: str | PathLike[str]) -> list[tuple[str, Path]]:
+    """
+    Every file that the program has written into a folder: its name in the present layout, and its path, which differs in folders of
+    earlier versions.
     """
 
 def identify_material(source: "object", threads: SupportsIndex | None) -> list[tuple[str, bytes]]:

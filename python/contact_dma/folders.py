@@ -70,10 +70,10 @@ def _read(folder: str | os.PathLike[str]) -> AnyResult:
         raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), os.fspath(folder))
     files = dict(_core.files_of(path))
     if "records/analysis.json" in files and "resolved.toml" not in files:
-        return AnalysisResult(Path(files["records/analysis.json"]).read_bytes())
+        return AnalysisResult(files["records/analysis.json"].read_bytes())
     if "material.toml" in files and "fit.csv" in files:
         names = (name for name in IdentifiedMaterial._FILES if name in files)
-        return IdentifiedMaterial([(name, Path(files[name]).read_bytes()) for name in names])
+        return IdentifiedMaterial([(name, files[name].read_bytes()) for name in names])
     if (path / "history.csv").is_file():
         return HistoryResult(path)
     return SweepResult(path)

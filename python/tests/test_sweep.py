@@ -409,10 +409,10 @@ def test_indenters_of_arrays_are_several_by_their_names_and_saved_as_files(tmp_p
         assert pickle.loads(pickle.dumps(several)) == several
         folder = tmp_path / str(number)
         several.save(folder)
-        assert sorted(p.name for p in folder.iterdir() if p.name.startswith(("height", "profile."))) == files
+        assert sorted(p.name for p in (folder / "records").iterdir() if p.name.startswith(("height", "profile."))) == files
         run_program(program, "report", folder)
         read = cd.read(folder, cd.SweepResult)
-        assert read == several and all((folder / file).is_file() for file in files)
+        assert read == several and all((folder / "records" / file).is_file() for file in files)
         several.save(folder, overwrite=True)
         assert cd.read(folder) == several
     assert alone[0] == pytest.approx(alone[1], rel=1e-6)
