@@ -439,7 +439,7 @@ def test_figures_are_those_of_the_program_and_written_as_their_ending_says(resul
     assert set(result.figures) == set(read.figures) == drawn and "energy-loss" in drawn
     figure = result.figures["energy-loss"]
     assert repr(figure) == "<Figure energy-loss>" and str(figure._repr_html_()) in result._repr_html_()
-    for name, begin in [("loss.svg", b"<svg"), ("loss.pdf", b"%PDF"), ("loss.png", b"\x89PNG")]:
+    for name, begin in [("loss.svg", b"<svg"), ("loss.pdf", b"%PDF"), ("loss.eps", b"%!PS"), ("loss.png", b"\x89PNG")]:
         figure.save(tmp_path / name)
         assert (tmp_path / name).read_bytes().startswith(begin)
     curve = re.findall(r'<poly(?:line|gon)[^>]* points="[^"]*"', (tmp_path / "loss.svg").read_text())

@@ -14,6 +14,19 @@ fn letters_that_the_typeface_lacks_are_said() {
 }
 
 #[test]
+fn an_underscore_in_a_name_sets_no_subscript() {
+    let place = Place::lent("letters.toml");
+    let text = place.text("letters.toml").replace("材料", "poly_2");
+    place.put("letters.toml", text);
+    place.done(&format!(
+        "sweep letters.toml --out out {SVG} --set figures.svg_text=text"
+    ));
+    let svg = place.text("out/energy-loss.svg");
+    assert!(svg.contains(">poly_2</text>"), "{svg}");
+    assert!(place.text("out/energy-loss.caption.txt").contains("poly_2"));
+}
+
+#[test]
 fn a_name_with_the_letters_of_a_header_stays_as_it_is() {
     let body = "[indenter.material]\nname = \"steel [material 4]\"\nelastic = { modulus = \"210 GPa\", poisson_ratio = 0.3 }\n";
     let place = Place::new();

@@ -6,6 +6,7 @@ use super::plot::{Plot, Quantity};
 use super::quantity::ENERGY_LOSS;
 use super::units::Units;
 use crate::report::ReportError;
+use crate::report::chart::literal;
 use crate::sweep::plan::{AxisValue, Block, Condition, SweepPlan, Varied};
 use crate::sweep::record::{CaseRecord, CaseResult};
 use crate::sweep::search::peak::Peak;
@@ -14,7 +15,7 @@ use crate::sweep::search::run::Outcome;
 /// The cases under one condition, in ascending frequency.
 pub struct Curve<'a> {
     pub condition: Condition,
-    /// What tells it from other curves; `None` where it is the only one.
+    /// What tells it from other curves, as a label of a chart; `None` where it is the only one.
     pub label: Option<String>,
     /// The same for a caption.
     pub sentence: Option<String>,
@@ -37,7 +38,8 @@ fn words_of(varied: &Varied, value: AxisValue, units: &Units) -> [String; 2] {
         Block::Material => "Material",
     };
     let sentence = format!("{of}: {said}.");
-    [said, sentence]
+    // A label is typeset, and names are not: `poly_2` stays as it is.
+    [literal(&said), sentence]
 }
 
 /// What a curve is called that has these values, and the same for a caption; nothing of no value.
