@@ -68,7 +68,7 @@ fn faults(pictures: &Pictures) -> Vec<String> {
         };
         for (name, picture) in pictures {
             let is_taken = width_mm / 25.4 * 72.0 / pt * 16.0 >= LEAST_WIDTH_PX;
-            match picture.as_asked(&plan) {
+            match picture.as_asked(&plan, "") {
                 Ok(drawing) => {
                     let overlaps = drawing.overlaps();
                     faults.extend(

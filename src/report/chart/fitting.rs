@@ -44,8 +44,8 @@ pub fn fits(chart: &Chart) -> Result<bool, ChartError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::chart::canvas::Anchor;
     use crate::report::chart::look::{LABEL_TEXT, LEGEND_TEXT};
+    use crate::report::chart::text::Anchor;
     use crate::report::chart::{Axis, Series};
 
     /// Five curves with long names, in a picture as narrow as a column.

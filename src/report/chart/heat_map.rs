@@ -330,7 +330,7 @@ mod tests {
     /// The colours of the shapes that one of the functions of this file draws.
     fn painted(chart: &Chart, draw: impl Fn(&Bar, &Layout, &mut Canvas)) -> Vec<String> {
         let layout = laid_out(chart).layout;
-        let mut canvas = Canvas::new(Size::default());
+        let mut canvas = Canvas::new(chart);
         draw(layout.bar.as_ref().unwrap(), &layout, &mut canvas);
         let color = |shape: &Shape| match shape.paint {
             Paint::Fill { color, .. } | Paint::Stroke { color, .. } => color,
@@ -390,7 +390,7 @@ mod tests {
         chart.y.range = chart.x.range;
         assert_eq!(painted(&chart, turned), ["#440154", "#fde725", "#ffffff"]);
         let layout = laid_out(&chart).layout;
-        let mut canvas = Canvas::new(Size::default());
+        let mut canvas = Canvas::new(&chart);
         discs(&map, layout.bar.as_ref().unwrap(), &layout, &mut canvas);
         let outermost = canvas.finish().unwrap()[0].path.bounds().width();
         let expected = 0.8 * layout.frame.width();
