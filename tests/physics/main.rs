@@ -43,4 +43,5 @@ mod transient_contact;
 mod two_bodies;
 mod two_engines;
 mod units;
+mod work_density;
 mod work_of_cases;

@@ -222,8 +222,8 @@ fn place_of_mean(from_m: f64, to_m: f64, gap_m: impl Fn(f64) -> f64) -> (f64, f6
 const ROUNDING: f64 = 1e-10;
 
 impl Engine for Axisymmetric {
-    fn nodes(&self) -> usize {
-        self.gap_m.len()
+    fn gap_m(&self) -> &[f64] {
+        &self.gap_m
     }
 
     fn solve(

@@ -116,7 +116,12 @@ pub enum ContactError {
 /// function of gap and [`Instant`] alone, to the solver's tolerance.
 pub trait Engine: Send {
     /// Number of nodes: the length of every nodal slice.
-    fn nodes(&self) -> usize;
+    fn nodes(&self) -> usize {
+        self.gap_m().len()
+    }
+
+    /// The initial gap g of every node (m).
+    fn gap_m(&self) -> &[f64];
 
     /// Whether a starting guess nearer to the answer saves this engine work.
     fn starts_from_guess(&self) -> bool {

@@ -1,4 +1,4 @@
-//! What a march dissipates: how much of it in which relaxation branch, and at which node the drive puts it in.
+//! What a march dissipates, and how much of it in which relaxation branch.
 //!
 //! A branch of the compliance is a spring C_j beside a dashpot; the dashpot takes
 //!
@@ -9,8 +9,6 @@
 //! with <a, b> the sum over the surface of a pressure and a displacement, and B the elastic operator. Over a stabilised cycle
 //! the sum over the branches is the area of the loop, by another route: nothing here knows of the loop. Within a step the
 //! integral is exact for the pressure the time rule assumes, at any ratio of step to retardation time.
-//!
-//! Where the indenter touches, the surface moves with it, so that the work it does per node is the integral of p d(delta).
 
 use super::memory::Memory;
 use super::rule::TimeRule;
@@ -32,8 +30,6 @@ pub struct Dissipation {
     /// B applied to d of one branch and to the change.
     of_deviation: Vec<f64>,
     of_change: Vec<f64>,
-    /// Integral of p d(delta) per node.
-    nodal_work: Vec<f64>,
 }
 
 /// One branch: compliance (1/Pa), energy so far (J), and the integrals over a step of the products of
@@ -65,18 +61,12 @@ impl Dissipation {
             change: vec![0.0; nodes],
             of_deviation: vec![0.0; nodes],
             of_change: vec![0.0; nodes],
-            nodal_work: vec![0.0; nodes],
         }
     }
 
     /// Energy (J) that each branch dissipated, in the order of the compliance's branches.
     pub fn branch_energies_j(&self) -> Vec<f64> {
         self.branches.iter().map(|b| b.energy_j).collect()
-    }
-
-    /// Work per node, the integral of p d(delta): in the unit of the nodal pressure times a metre.
-    pub fn nodal_work(&self) -> &[f64] {
-        &self.nodal_work
     }
 
     /// Takes in the state at the start of a step.
@@ -88,14 +78,6 @@ impl Dissipation {
     pub(super) fn passes(&mut self, fraction: f64, pressure: &[f64]) {
         self.passed = fraction;
         self.pressure.copy_from_slice(pressure);
-    }
-
-    /// Takes in the pressure at the end of a stage, over which the indenter travelled so far.
-    pub(super) fn works(&mut self, pressure: &[f64], travel_m: f64) {
-        let pressures = self.pressure.iter().zip(pressure);
-        for (work, (old, new)) in self.nodal_work.iter_mut().zip(pressures) {
-            *work += 0.5 * (old + new) * travel_m;
-        }
     }
 
     /// Takes in the pressure at the end of a step; returns the convolutions that took. Within the step the pressure is linear

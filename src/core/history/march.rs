@@ -6,7 +6,9 @@ use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::{Response, Surface};
 use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution};
 use crate::history::extrapolation::Extrapolation;
-use crate::history::{Dissipation, Hereditary, Memory, PastState, Stage, Step, TimeRule, Work};
+use crate::history::{
+    Dissipation, Hereditary, Memory, NodalWork, PastState, Stage, Step, TimeRule, Work,
+};
 use crate::material::Creep;
 
 /// A contact moving through time, its past kept as memory variables or, as [`DirectMemory`](super::DirectMemory), in full.
@@ -268,6 +270,23 @@ impl<'a, M: Hereditary> March<'a, M> {
         nodes.map(|(p, h)| self.compliance_per_pa * p + h)
     }
 
+    /// A of the instant last solved (1/Pa): at a jump the compliance at which the body answers at once.
+    pub fn compliance_per_pa(&self) -> f64 {
+        self.compliance_per_pa
+    }
+
+    /// <p, B p> of the instant last solved: twice the elastic energy (J) of its pressure in a body of the compliance 1.
+    ///
+    /// # Errors
+    /// As [`Engine::elastic_displacement`].
+    pub fn pressed(&mut self) -> Result<f64, ContactError> {
+        let mut displacement = vec![0.0; self.pressure.len()];
+        let engine = &mut *self.engine;
+        let convolutions = engine.elastic_displacement(&self.pressure, &mut displacement)?;
+        self.work.convolutions += convolutions as u64;
+        Ok(self.engine.work(&self.pressure, &displacement))
+    }
+
     /// The instant last solved.
     pub fn solution(&self) -> Option<Solution> {
         self.solution
@@ -347,11 +366,8 @@ impl March<'_> {
         dissipation.begin(&self.memory);
         let mut from = 0.0;
         for stage in stages {
-            let start = self.solution;
             dissipation.passes(from, &self.pressure);
-            let solution = self.step(&stage.weights, stage.prescribed(&drive))?;
-            let travel_m = start.map_or(0.0, |start| solution.approach_m - start.approach_m);
-            dissipation.works(&self.pressure, travel_m);
+            self.step(&stage.weights, stage.prescribed(&drive))?;
             from = stage.pressure_at;
         }
         let convolutions = dissipation.end(self.engine, &self.pressure)?;
@@ -359,17 +375,35 @@ impl March<'_> {
         Ok(())
     }
 
-    /// The density over the surface of what adds up over the nodes like a pressure, such as
-    /// [`Dissipation::nodal_work`]; nothing of it lies beyond `radius_m`.
+    /// Takes the present instant into the work at every node: at the beginning, then after every step.
+    ///
+    /// # Errors
+    /// As [`Engine::elastic_displacement`].
+    pub fn add_work(&mut self, work: &mut NodalWork) -> Result<(), ContactError> {
+        let Some(solution) = self.solution else {
+            return Ok(());
+        };
+        let hereditary = self.hereditary().collect();
+        let convolutions = work.see(
+            self.engine,
+            (solution.approach_m, &self.pressure),
+            (hereditary, &self.memory),
+        )?;
+        self.work.convolutions += convolutions as u64;
+        Ok(())
+    }
+
+    /// The density over the surface of the work of a cycle; nothing of it lies beyond `radius_m`.
     ///
     /// # Errors
     /// As [`Engine::surface`].
-    pub fn surface_density(
+    pub fn work_density(
         &mut self,
-        nodal: &[f64],
+        work: &NodalWork,
         radius_m: f64,
     ) -> Result<Surface, ContactError> {
-        self.engine.surface_density(nodal, radius_m)
+        let nodal = work.of_loop(self.engine);
+        self.engine.surface_density(&nodal, radius_m)
     }
 
     /// The state after this value was held for ever: every memory variable equals the pressure.

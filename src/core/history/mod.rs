@@ -41,6 +41,7 @@ mod extrapolation;
 mod hereditary;
 mod march;
 mod memory;
+mod nodal_work;
 mod rule;
 mod work;
 
@@ -51,5 +52,6 @@ pub use extrapolation::Extrapolation;
 pub use hereditary::{Hereditary, PastState};
 pub use march::{March, Observer, StepState};
 pub use memory::Memory;
+pub use nodal_work::NodalWork;
 pub use rule::{DirectWeights, Recursion, Stage, Step, StepWeights, TimeRule, order_of_steps};
 pub use work::Work;

@@ -41,8 +41,8 @@ impl Periodic {
 }
 
 impl Engine for Periodic {
-    fn nodes(&self) -> usize {
-        self.gap_m.len()
+    fn gap_m(&self) -> &[f64] {
+        &self.gap_m
     }
 
     fn starts_from_guess(&self) -> bool {

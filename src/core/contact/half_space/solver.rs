@@ -308,8 +308,8 @@ impl From<ConvolutionError> for ContactError {
 }
 
 impl Engine for HalfSpace {
-    fn nodes(&self) -> usize {
-        self.gap_m.len()
+    fn gap_m(&self) -> &[f64] {
+        &self.gap_m
     }
 
     fn starts_from_guess(&self) -> bool {

@@ -3,7 +3,7 @@
 use crate::contact::ContactError;
 use crate::contact::surface::Surface;
 use crate::cycle::{self, ContactDuty, Extrema, Loop, LoopAnalysis, LoopError, Smoothness};
-use crate::history::{Dissipation, March};
+use crate::history::{Dissipation, March, NodalWork};
 use crate::sweep::case::lift_off::{contact_duty, smoothness};
 use crate::sweep::case::pressure::Pressures;
 use crate::sweep::case::stabilise::{CaseError, Contact, Wanted};
@@ -20,6 +20,8 @@ pub(super) struct Recording {
     pub dissipation: Dissipation,
     pressures: Option<Pressures>,
     tangent_radius: Option<TangentRadius>,
+    /// Only of a cycle that closes.
+    work: Option<NodalWork>,
 }
 
 impl Recording {
@@ -27,12 +29,15 @@ impl Recording {
     pub fn new(contact: &Contact<'_>, nodes: usize, steps: usize) -> Self {
         let step_s = contact.period_s() / steps as f64;
         let (everything, numbers) = (Wanted::Everything, Wanted::Numbers);
+        let is_transient = contact.cycle.at_cycle.is_some();
         Self {
             samples: Loop::default(),
             dissipation: Dissipation::new(contact.compliance, nodes, step_s, contact.time_rule),
             pressures: (contact.wanted >= everything)
                 .then(|| Pressures::new(&contact.condition.drive, steps)),
             tangent_radius: (contact.wanted >= numbers).then(|| TangentRadius::new(steps)),
+            work: (contact.wanted >= everything && !is_transient)
+                .then(|| NodalWork::new(contact.compliance, nodes, step_s)),
         }
     }
 
@@ -56,7 +61,11 @@ impl Recording {
     /// Appends the present instant to the loop.
     pub fn sample(&mut self, march: &mut March<'_>, time_s: f64) -> Result<(), ContactError> {
         let with_numbers = self.tangent_radius.is_some();
-        sample(march, &mut self.samples, time_s, with_numbers)
+        sample(march, &mut self.samples, time_s, with_numbers)?;
+        match &mut self.work {
+            Some(work) => march.add_work(work),
+            None => Ok(()),
+        }
     }
 
     /// What the cycle comes to.
@@ -86,12 +95,9 @@ impl Recording {
         let [of_approach, of_contact] = smoothness(drive, samples, !is_transient);
         let peaks: Option<Vec<f64>> = samples.peak_pressure_pa.iter().copied().collect();
         let largest_radius_m = samples.contact_radius_m.iter().copied().fold(0.0, f64::max);
-        let surface_loss = match contact.wanted {
-            Wanted::Everything if !is_transient => {
-                let work = self.dissipation.nodal_work();
-                surface_loss(march.surface_density(work, largest_radius_m)?)
-            }
-            _ => SurfaceLoss::default(),
+        let surface_loss = match &self.work {
+            Some(work) => surface_loss(march.work_density(work, largest_radius_m)?),
+            None => SurfaceLoss::default(),
         };
         // What an open cycle dissipates is not the area of a loop: the body stores another part of the work.
         let branches = match is_transient {
