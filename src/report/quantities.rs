@@ -33,6 +33,8 @@ pub struct Column<R: 'static> {
     /// Where value and error go that are read back from the table.
     place: Option<PlaceIn<R>>,
     error_place: Option<PlaceIn<R>>,
+    /// Whether tables of earlier versions of the program do without it.
+    pub(super) is_new: bool,
 }
 
 /// Where a value of a row goes that is read back from a table.
@@ -75,6 +77,7 @@ impl<R> Column<R> {
             compared: None,
             place: None,
             error_place: None,
+            is_new: false,
         }
     }
 
@@ -117,6 +120,12 @@ impl<R> Column<R> {
     /// Where the error goes that is read back.
     pub(super) const fn error_into(mut self, place: PlaceIn<R>) -> Self {
         self.error_place = Some(place);
+        self
+    }
+
+    /// A column that tables of earlier versions do not have.
+    const fn new_in_table(mut self) -> Self {
+        self.is_new = true;
         self
     }
 
@@ -422,6 +431,10 @@ pub static HISTORY: &[OfMoment] = &[
         "largest pressure in the contact; empty where it is unbounded")
         .called("pressure", Some(Stress)).with_error(|m| m.errors.peak_pressure_pa)
         .read_into(|m| Optional(&mut m.row.peak_pressure_pa)).error_into(|m| Optional(&mut m.errors.peak_pressure_pa)),
+    OfMoment::new("work_j", |m| m.row.work_j.into(),
+        "work that the indenter has done on the body so far, ∫ W dδ; at a jump what the body takes up at once, elastically")
+        .called("work", Some(Energy)).with_error(|m| m.errors.work_j)
+        .read_into(|m| Optional(&mut m.row.work_j)).error_into(|m| Optional(&mut m.errors.work_j)).new_in_table(),
 ];
 
 /// Of a cycle that has numbers.

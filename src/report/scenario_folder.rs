@@ -21,8 +21,8 @@ use crate::input::diagnostic::{Diagnostic, Diagnostics, Location, Source};
 use crate::input::document::read_limited;
 use crate::simulation::cycles::{self, HistoryCycle};
 use crate::simulation::errors::RowErrors;
-use crate::simulation::scenario;
 use crate::simulation::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome, SurfaceRecord};
+use crate::simulation::{scenario, work};
 use crate::sweep::plan::resolved::hash;
 use crate::sweep::store::files::{Found, OfCase, Place};
 
@@ -58,7 +58,10 @@ pub fn read(folder: &Path, simulation: &Simulation) -> Result<History, Diagnosti
     let most = simulation.schedule().moments.len();
     let moments = folder.table(HISTORY, quantities::HISTORY, &Moment::default(), most)?;
     let errors: Vec<RowErrors> = moments.iter().map(|moment| moment.errors).collect();
-    let rows: Vec<HistoryRow> = moments.into_iter().map(|moment| moment.row).collect();
+    let mut rows: Vec<HistoryRow> = moments.into_iter().map(|moment| moment.row).collect();
+    if rows.iter().all(|row| row.work_j.is_none()) {
+        work::fill_in(plan, &mut rows);
+    }
     if !rows.is_sorted_by(|a, b| a.time_s <= b.time_s) {
         return Err(folder.wrong(HISTORY, "its times descend"));
     }

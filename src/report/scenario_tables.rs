@@ -14,6 +14,7 @@ use crate::contact::surface::Surface;
 use crate::simulation::body_material::BodyMaterial;
 use crate::simulation::outside_model;
 use crate::simulation::scenario::ScenarioPlan;
+use crate::simulation::work::{self, HistoryWork};
 use crate::simulation::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
 use crate::sweep::store::Store;
 use crate::sweep::store::files::{OfCase, Place};
@@ -237,6 +238,13 @@ struct Summary<'a> {
     end_time_s: Option<f64>,
     largest_contact_radius_m: f64,
     largest_peak_pressure_pa: Option<f64>,
+    /// Of the indenter on the body over the whole history.
+    work_j: Option<f64>,
+    work_error_j: Option<f64>,
+    /// The same, where the history ends without load; otherwise why not.
+    energy_dissipated_j: Option<f64>,
+    energy_dissipated_error_j: Option<f64>,
+    energy_dissipated_missing: Option<&'a str>,
     engine: &'a str,
     /// series | fitted series | direct sum: how the body's past is kept.
     hereditary_integral: &'a str,
@@ -278,6 +286,7 @@ pub fn summary(
         code: warning.code(),
         message: warning.to_string(),
     });
+    let work = HistoryWork::of(plan, outcome);
     let summary = Summary {
         title: &plan.title,
         status,
@@ -288,6 +297,11 @@ pub fn summary(
         largest_contact_radius_m: radii.fold(0.0, f64::max),
         largest_peak_pressure_pa: peaks
             .try_fold(0.0, |largest: f64, peak| Some(largest.max(peak?))),
+        work_j: work.map(|work| work.work_j),
+        work_error_j: work.and_then(|work| work.error_j),
+        energy_dissipated_j: work.and_then(|work| work.dissipated_j()),
+        energy_dissipated_error_j: work.and_then(|work| work.dissipated_error_j()),
+        energy_dissipated_missing: work.map_or(Some(work::UNKNOWN), |work| work.stored),
         engine: plan.solver.engine.name(),
         hereditary_integral: match &plan.contact.material {
             BodyMaterial::Series(material) if material.origin.fit.is_some() => "fitted series",

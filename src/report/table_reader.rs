@@ -37,10 +37,14 @@ pub fn rows<R: Clone>(
         .headers()
         .map_err(|error| refuse(0, error.to_string()))?;
     let mut places: Vec<(usize, String, PlaceIn<R>)> = Vec::new();
-    for (column, place) in columns.iter().flat_map(Column::places) {
-        let found = head.iter().position(|cell| cell == column);
-        let cell = found.ok_or_else(|| refuse(0, format!("no column `{column}`")))?;
-        places.push((cell, column, place));
+    for of in columns {
+        for (column, place) in of.places() {
+            match head.iter().position(|cell| cell == column) {
+                Some(cell) => places.push((cell, column, place)),
+                None if of.is_new => {}
+                None => return Err(refuse(0, format!("no column `{column}`"))),
+            }
+        }
     }
     let (mut rows, mut record) = (Vec::new(), StringRecord::new());
     loop {

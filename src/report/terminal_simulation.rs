@@ -7,10 +7,12 @@ use crate::report::quantities::{Column, HISTORY, Moment};
 use crate::report::samples;
 use crate::report::terminal;
 use crate::report::text::{Column as Shown, Table, Text};
+use crate::report::words;
 use crate::simulation::body_material::BodyMaterial;
 use crate::simulation::cycles::HistoryCycle;
 use crate::simulation::outside_model;
 use crate::simulation::scenario::ScenarioPlan;
+use crate::simulation::work::HistoryWork;
 use crate::simulation::{SimulationEnd, SimulationOutcome};
 
 /// Title, material where it comes from a table, extent of the history, its largest contact and its end, with errors.
@@ -33,6 +35,9 @@ pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Text {
         text.line(format!("Interrupted: the history was to last {duration}."));
     }
     text.append(extremes(outcome));
+    if let Some(work) = HistoryWork::of(plan, outcome) {
+        text.append(format!("\nWork of the indenter: {}\n", words::work(&work)));
+    }
     let enlarged = match outcome.domain_enlarged {
         0 => String::new(),
         n => format!(", domain enlarged {n} times"),
@@ -110,9 +115,9 @@ fn cycles(outcome: &SimulationOutcome) -> String {
     losses.collect()
 }
 
-/// What has an error.
+/// What a moment has with an error; the work is one of the whole history.
 fn columns() -> impl Iterator<Item = &'static Column<Moment>> {
     HISTORY
         .iter()
-        .filter(|column| column.error_name().is_some())
+        .filter(|column| column.error_name().is_some() && column.name != "work_j")
 }

@@ -8,6 +8,7 @@ use crate::engine::{EngineKind, SolverPlan};
 use crate::indenter::{Indenter, Setting, Value};
 use crate::material::{Compressibility, Material, Relaxation};
 use crate::quantity::{Dimension, FrequencyUnit};
+use crate::simulation::work::HistoryWork;
 use crate::sweep::plan::adhesion::AdhesionPlan;
 use crate::sweep::plan::{Block, Condition, SweepPlan, Varied};
 use crate::sweep::search::run::Outcome;
@@ -53,6 +54,15 @@ pub fn drive_line(drive: &HarmonicDrive, plan: &SweepPlan) -> String {
     });
     let (name, pressure) = (drive.control().name(), pressure.unwrap_or_default());
     format!("{name} {mean} ± {amplitude}{held}{pressure}")
+}
+
+/// The work of the indenter over a history, and what becomes of it.
+pub fn work(work: &HistoryWork) -> String {
+    let value = number::with_error(work.work_j, work.error_j, Dimension::Energy);
+    let becomes = work
+        .stored
+        .unwrap_or("all of it is dissipated by the time the surface has recovered");
+    format!("{value}; {becomes}")
 }
 
 /// The attraction of the indenter, where there is any: `a work of adhesion of 0.05 J/m² (DMT)`.

@@ -17,6 +17,7 @@ mod energy_balance;
 mod error_bars;
 mod fractional;
 mod half_space_work;
+mod history_work;
 mod identification;
 mod identified;
 mod identified_bodies;

@@ -69,6 +69,7 @@ mod tests {
             approach_m: None,
             contact_radius_m: 0.0,
             peak_pressure_pa: None,
+            work_j: None,
         };
         let rows = [
             row(0.0, 0.0),

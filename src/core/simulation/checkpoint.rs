@@ -125,6 +125,7 @@ mod tests {
     use crate::contact::surface::{CellSurface, RadialSurface};
     use crate::history::{Extrapolation, PastState, Work};
     use crate::simulation::HistoryRow;
+    use crate::simulation::work::WorkDone;
     use crate::sweep::store::checkpoint_file;
     use std::fs;
 
@@ -135,6 +136,7 @@ mod tests {
             approach_m: None,
             contact_radius_m: -0.0,
             peak_pressure_pa: Some(1e-300),
+            work_j: Some(2e-300),
         }
     }
 
@@ -162,6 +164,7 @@ mod tests {
         HistoryState {
             finished: Cow::Owned(vec![Trajectory {
                 rows: vec![row(0.1 + 0.2), row(1.0)],
+                work: WorkDone::default(),
                 surfaces: [vec![Some(radial), None], vec![Some(cells)]],
                 growths: 2,
                 iterations: 7,

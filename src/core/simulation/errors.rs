@@ -4,7 +4,8 @@
 //! Levels leave steps out, so that their rows are rows of the history; those between take the difference of the rows around
 //! them. As time goes by, a difference passes through zero where its sign changes, while the edge of contact wanders from node to
 //! node for one, and says nothing of the error there. So every row takes the largest difference of the rows around it that no
-//! jump of the drive parts from it.
+//! jump of the drive parts from it; the work, whose difference stays where it was for as long as nothing more is done, the largest of
+//! all rows before.
 
 use std::collections::HashMap;
 
@@ -22,6 +23,7 @@ pub struct RowErrors {
     pub approach_m: Option<f64>,
     pub contact_radius_m: Option<f64>,
     pub peak_pressure_pa: Option<f64>,
+    pub work_j: Option<f64>,
 }
 
 /// What tells the errors of a history, which is the first of the resolutions.
@@ -30,7 +32,7 @@ pub(super) struct Plan {
     pub(super) resolutions: Vec<(Fineness, usize)>,
     /// In steps, and in nodes, by places among the resolutions.
     refinements: [Refinements<usize>; 2],
-    node_orders: [(f64, f64); 4],
+    node_orders: [(f64, f64); 5],
 }
 
 /// Nodes of each level over those of the next finer one. By measurement (300 random histories on springs, 3 seeds): of 0.5, 0.62,
@@ -61,18 +63,22 @@ const AROUND: usize = 8;
 type Value = fn(&HistoryRow) -> Option<f64>;
 
 /// In the order of [`RowErrors`].
-const VALUES: [Value; 4] = [
+const VALUES: [Value; 5] = [
     |row| Some(row.load_n),
     |row| row.approach_m,
     |row| Some(row.contact_radius_m),
     |row| row.peak_pressure_pa,
+    |row| row.work_j,
 ];
 
-/// The lowest and the highest order that are believed: in the steps, and in the nodes for each value. Load and approach of
-/// cells are off by the edge of contact between two of them, where the pressure goes with the square root of the distance.
+/// Which of them adds up over time.
+const WORK: usize = 4;
+
+/// The lowest and the highest order that are believed: in the steps, and in the nodes for each value. Load, approach and
+/// work of cells are off by the edge of contact between two of them, where the pressure goes with the square root of the distance.
 const STEP_ORDERS: (f64, f64) = (1.0, 2.0);
-const SPRING_ORDERS: [(f64, f64); 4] = [(1.0, 2.0), (1.0, 2.0), (0.3, 1.0), (0.3, 1.0)];
-const CELL_ORDERS: [(f64, f64); 4] = [(1.0, 1.5), (1.0, 1.5), (0.3, 1.0), (0.3, 1.0)];
+const SPRING_ORDERS: [(f64, f64); 5] = [(1.0, 2.0), (1.0, 2.0), (0.3, 1.0), (0.3, 1.0), (1.0, 2.0)];
+const CELL_ORDERS: [(f64, f64); 5] = [(1.0, 1.5), (1.0, 1.5), (0.3, 1.0), (0.3, 1.0), (1.0, 1.5)];
 
 /// What a resolution came to: its rows, and the row of the history that each is.
 pub(super) struct Followed<'a> {
@@ -166,7 +172,7 @@ impl Plan {
             return Vec::new();
         };
         let stretches = stretches(history.rows);
-        let columns = [0, 1, 2, 3].map(|column| {
+        let columns = [0, 1, 2, 3, 4].map(|column| {
             let value = VALUES[column];
             let pairs = self.refinements.iter();
             let pairs =
@@ -174,7 +180,13 @@ impl Plan {
             let known = pairs.flatten().map(|pair| {
                 let levels = [followed.get(pair.finer), followed.get(pair.coarser)];
                 let differences = differences(levels, value, history.rows.len());
-                ((pair.finer, pair.coarser), spread(&differences, &stretches))
+                let spread = spread(&differences, &stretches);
+                let told = if column == WORK {
+                    so_far(spread)
+                } else {
+                    spread
+                };
+                ((pair.finer, pair.coarser), told)
             });
             let known: HashMap<_, _> = known.collect();
             let error = |(row, values): (usize, &HistoryRow)| {
@@ -190,13 +202,19 @@ impl Plan {
                 .collect::<Vec<_>>()
         });
         let row = |row: usize| {
-            let [load_n, approach_m, contact_radius_m, peak_pressure_pa] =
-                columns.each_ref().map(|column| column[row]);
+            let [
+                load_n,
+                approach_m,
+                contact_radius_m,
+                peak_pressure_pa,
+                work_j,
+            ] = columns.each_ref().map(|column| column[row]);
             RowErrors {
                 load_n,
                 approach_m,
                 contact_radius_m,
                 peak_pressure_pa,
+                work_j,
             }
         };
         (0..history.rows.len()).map(row).collect()
@@ -249,6 +267,16 @@ fn spread(known: &[Option<f64>], stretches: &[(usize, usize)]) -> Vec<Option<f64
     stretches.iter().enumerate().map(at).collect()
 }
 
+/// The largest of what is known up to each row.
+fn so_far(known: Vec<Option<f64>>) -> Vec<Option<f64>> {
+    let mut largest = 0.0_f64;
+    let of = |known: Option<f64>| {
+        largest = largest.max(known?);
+        Some(largest)
+    };
+    known.into_iter().map(of).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -260,6 +288,7 @@ mod tests {
             approach_m: None,
             contact_radius_m,
             peak_pressure_pa: None,
+            work_j: None,
         }
     }
 

@@ -16,6 +16,7 @@ use crate::engine::{self, EngineBuilder, EngineError, MAX_GROWTHS};
 use crate::history::{DirectMemory, Hereditary, March, Step, StepState};
 use crate::simulation::body_material::Compliance;
 use crate::simulation::checkpoint::{HistoryCheckpoint, HistoryState};
+use crate::simulation::work::WorkDone;
 use crate::simulation::{HistoryRow, Level, Progress, Simulation, SurfaceRecord};
 
 /// Why a march ended early.
@@ -34,6 +35,7 @@ pub(super) enum MarchError {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct Trajectory {
     pub(super) rows: Vec<HistoryRow>,
+    pub(super) work: WorkDone,
     /// Profiles, then fields, in the order in which they were asked for.
     pub(super) surfaces: [Vec<Option<SurfaceRecord>>; 2],
     /// How often the contact moved to a domain twice as wide.
@@ -216,6 +218,14 @@ impl Following<'_> {
                 // First touch of an undisturbed body: zero by definition, whatever node lies nearest to the axis.
                 row.approach_m = Some(0.0);
             }
+            let touch_m = row.approach_m.unwrap_or(solution.approach_m);
+            let work_j = trajectory.work.add(
+                march,
+                (moment, moments.get(index + 1)),
+                (row.load_n, touch_m),
+                drive.pull_off_n(),
+            )?;
+            row.work_j = Some(work_j);
             for (kind, moments) in wanted.into_iter().enumerate() {
                 if moments.contains(&index)
                     && let Some(surface) = match kind {
@@ -333,6 +343,7 @@ fn row<M: Hereditary>(
         approach_m: (!floating).then_some(solution.approach_m),
         contact_radius_m: solution.contact_radius_m,
         peak_pressure_pa,
+        work_j: None,
     })
 }
 

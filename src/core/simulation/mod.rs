@@ -17,6 +17,7 @@ pub mod errors;
 mod follow;
 pub mod outside_model;
 pub mod scenario;
+pub mod work;
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -69,6 +70,8 @@ pub struct HistoryRow {
     pub contact_radius_m: f64,
     /// `None` where the indenter's shape makes the pressure unbounded.
     pub peak_pressure_pa: Option<f64>,
+    /// Work (J) of the indenter on the body up to here; `None` where rows of an earlier version of the program do not tell it.
+    pub work_j: Option<f64>,
 }
 
 /// The surface at a requested time.

@@ -120,6 +120,7 @@ mod tests {
             approach_m: None,
             contact_radius_m: 0.0,
             peak_pressure_pa: Some(0.0),
+            work_j: Some(0.0),
         };
         let frames = frames(&[row(0.0), row(1.0)], 1.0);
         let quantities: Vec<&Quantity> = frames.iter().map(|frame| &frame.y).collect();

@@ -20,6 +20,7 @@ use crate::simulation::body_material::BodyMaterial;
 use crate::simulation::cycles::HistoryCycle;
 use crate::simulation::outside_model;
 use crate::simulation::scenario::ScenarioPlan;
+use crate::simulation::work::HistoryWork;
 use crate::simulation::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
 
 /// Moments of the history that the page carries.
@@ -159,7 +160,7 @@ pub(super) fn sections(
     html! {
         section aria-labelledby="answer" class="answer" {
             h2 id="answer" { "The history" }
-            (answer(outcome))
+            (answer(plan, outcome))
             (problems(outcome))
             (warned(outside_model::warnings(plan, outcome)))
             div id="load" class="live plot" {}
@@ -266,7 +267,7 @@ pub(super) fn line(plan: &ScenarioPlan) -> String {
 }
 
 /// The largest values, as a list.
-fn answer(outcome: &SimulationOutcome) -> Markup {
+fn answer(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Markup {
     let largest = |value: fn(&HistoryRow) -> Option<f64>| {
         let values = outcome.rows.iter().filter_map(value);
         values.reduce(f64::max)
@@ -286,6 +287,9 @@ fn answer(outcome: &SimulationOutcome) -> Markup {
     ] {
         let text = value.map(|value| plain(value, dimension, 5));
         facts.add(name, text.as_deref().unwrap_or("nowhere defined"));
+    }
+    if let Some(work) = HistoryWork::of(plan, outcome) {
+        facts.add("work of the indenter", &words::work(&work));
     }
     facts.html()
 }
