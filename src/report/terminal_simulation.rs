@@ -36,7 +36,8 @@ pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Text {
     }
     text.append(extremes(outcome));
     if let Some(work) = HistoryWork::of(plan, outcome) {
-        text.append(format!("\nWork of the indenter: {}\n", words::work(&work)));
+        text.blank();
+        text.paragraph(format!("Work of the indenter: {}.", words::work(&work)));
     }
     let enlarged = match outcome.domain_enlarged {
         0 => String::new(),

@@ -300,12 +300,17 @@ const SMALL: &str = include_str!("../inputs/step-ramp-sine.toml");
 fn a_scenario_prints_its_end_and_leaves_every_file() {
     let place = Place::with("small.toml", SMALL);
     let run = place.done("simulate small.toml").fits_eighty();
-    run.says(&["Results in reports/small", "time steps", "± "]);
+    run.says(&[
+        "Results in reports/small",
+        "time steps",
+        "± ",
+        "Work of the indenter: ",
+    ]);
     let read = |name: &str| place.text(&format!("reports/small/{name}"));
     let history = read("history.csv");
     assert!(history.starts_with(
-        "time_s,load_n,approach_m,contact_radius_m,contact_area_m2,peak_pressure_pa,\
-         load_error_n,approach_error_m,contact_radius_error_m,peak_pressure_error_pa\n0e0,1e1,"
+        "time_s,load_n,approach_m,contact_radius_m,contact_area_m2,peak_pressure_pa,work_j,\
+         load_error_n,approach_error_m,contact_radius_error_m,peak_pressure_error_pa,work_error_j\n0e0,1e1,"
     ));
     // Of some load that is prescribed, rounding; none of the rest is empty.
     let empty = |line: &str| line.split(',').any(str::is_empty);
@@ -317,6 +322,27 @@ fn a_scenario_prints_its_end_and_leaves_every_file() {
     let figures = "figures/history.svg figures/history@2x.png figures/profiles.svg figures/profiles.png figures/profiles.csv";
     place.has_all("reports/small", figures);
     assert!(read("summary.json").contains("\"status\": \"done\""));
+}
+
+#[test]
+fn a_folder_without_the_columns_of_the_work_is_drawn_again() {
+    let place = Place::with("small.toml", SMALL);
+    place.done("simulate small.toml --quiet --out old");
+    let history = place.text("old/history.csv");
+    let names: Vec<&str> = history.lines().next().unwrap().split(',').collect();
+    let older = history.lines().map(|line| {
+        let cells = line.split(',').zip(&names);
+        let kept = cells.filter(|(_, name)| !name.starts_with("work_"));
+        kept.map(|(cell, _)| cell).collect::<Vec<_>>().join(",") + "\n"
+    });
+    place.put("old/history.csv", older.collect::<String>());
+    place.done("report old");
+    // The history begins with a jump to a load, which rows do not tell.
+    assert!(
+        !place
+            .text("old/index.html")
+            .contains("work of the indenter")
+    );
 }
 
 #[test]
@@ -332,7 +358,7 @@ fn errors_are_left_out_where_nobody_asks_for_them_and_change_no_row() {
     let without = history("flag", "--no-error-bars");
     assert_eq!(without, history("key", "--set output.error_bars=false"));
     for (with, without) in with.lines().zip(without.lines()).skip(1) {
-        let values = without.strip_suffix(",,,,").unwrap();
+        let values = without.strip_suffix(",,,,,").unwrap();
         assert!(with.starts_with(values) && !with.ends_with(','), "{with}");
     }
 }

@@ -289,7 +289,7 @@ fn answer(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Markup {
         facts.add(name, text.as_deref().unwrap_or("nowhere defined"));
     }
     if let Some(work) = HistoryWork::of(plan, outcome) {
-        facts.add("work of the indenter", &words::work(&work));
+        facts.add("work of the indenter", words::work(&work));
     }
     facts.html()
 }
