@@ -15,7 +15,7 @@ pub(super) struct Ticks {
 }
 
 impl Ticks {
-    /// Leaves the labels of every second, third ... tick, so that no more than these have one.
+    /// Leaves the labels of every second, third ... tick alone, so that no more than these have one.
     fn keep_at_most(&mut self, most: usize) {
         let stride = (self.major.len() - 1).div_ceil(most - 1).max(1);
         let all = std::mem::take(&mut self.major).into_iter().enumerate();
@@ -74,7 +74,13 @@ pub(super) fn choose(scale: Scale, low: f64, high: f64, fits: impl Fn(&[Tick]) -
         if fits(&ticks.major) {
             break;
         }
-        ticks = with_at_most(most);
+        let sparser = with_at_most(most);
+        // One label alone says nothing of the scale: rather the two at the ends of a denser choice.
+        if sparser.major.len() < 2 && ticks.major.len() > 2 {
+            ticks.keep_at_most(2);
+            break;
+        }
+        ticks = sparser;
     }
     ticks
 }
@@ -354,6 +360,9 @@ mod tests {
         assert_eq!(labels(&few).len(), 2);
         let two = choose(Scale::Log, 0.11, 0.95, |ticks| ticks.len() < 3);
         assert_eq!(two.major.len(), 2, "{two:?}");
+        // About zero, where the next step names zero alone.
+        let about = choose(Scale::Linear, -320.0, 320.0, |ticks| ticks.len() < 3);
+        assert_eq!(labels(&about), ["−200", "200"]);
         // All ticks are there still.
         let mut all = one_two_five(0.11, 0.95, -2, 0);
         let values = all.major.iter().map(|tick| tick.value);
