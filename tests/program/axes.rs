@@ -299,9 +299,9 @@ fn a_sweep_over_several_axes_is_drawn_along_each_and_compared_with_itself() {
     assert_eq!(table.len(), 2 * 3 * 9);
     place.has_all(
         "out",
-        "figures/loss-map.svg figures/loss-map-2.svg figures/energy-loss-2.svg figures/peaks-2.svg",
+        "figures/energy-loss-over-temperature.svg figures/energy-loss-over-mean.svg figures/energy-loss-2.svg figures/peaks-2.svg",
     );
-    let caption = place.text("out/figures/loss-map-2.caption.txt");
+    let caption = place.text("out/figures/energy-loss-2.caption.txt");
     let others = "Other axes at temperature of the material";
     assert!(caption.contains(others), "{caption}");
     let summary = place.json("out/summary.json");

@@ -70,7 +70,11 @@ fn what_makes_no_number_changes_nothing() {
         sources.with("src/core/history/direct.rs", &more),
         sources.replaced("src/report/quantities.rs", "energy loss", "work"),
         sources.with("src/cli/sweep.rs", &constant),
-        sources.replaced(look, "titles: bool = true", "titles: bool = false"),
+        sources.replaced(
+            look,
+            "titles: Option<bool> = None",
+            "titles: Option<bool> = Some(true)",
+        ),
         sources.replaced("src/core/sweep/store/error.rs", "cannot", "can not"),
         sources.with_version_of("clap"),
     ];

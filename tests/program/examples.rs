@@ -64,7 +64,7 @@ fn every_example_runs_to_its_end() {
         match command {
             "simulate" => {
                 assert_eq!(summary["status"], "done", "{out}");
-                assert!(place.has(&format!("{out}/profiles.csv")), "{out}");
+                assert!(place.has(&format!("{out}/figures/profiles.csv")), "{out}");
             }
             "identify" => {
                 let branches = 3 - usize::from(path.ends_with("identify-creep.toml"));

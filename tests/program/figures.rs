@@ -313,7 +313,7 @@ fn colors(svg: &str) -> BTreeSet<&str> {
 #[test]
 fn a_folder_is_drawn_anew_in_another_typeface_in_grey_with_titles_and_as_eps() {
     let place = swept("[figures]\nformats = [\"svg\"]\n");
-    let loss = |name: &str| place.text(&format!("{name}/energy-loss.svg"));
+    let loss = |name: &str| place.text(&format!("{name}/figures/energy-loss.svg"));
     assert!(!loss("out").contains("<text"));
     let draw = |out: &str, settings: &str| {
         let settings = settings.split(' ');
@@ -349,9 +349,9 @@ fn a_folder_is_drawn_anew_in_another_typeface_in_grey_with_titles_and_as_eps() {
         "print",
         "titles=false font=sans formats=[\"pdf\",\"eps\"] column=one",
     );
-    let (_, pages, pdf) = page_of(&place, "print/energy-loss.pdf");
+    let (_, pages, pdf) = page_of(&place, "print/figures/energy-loss.pdf");
     assert!(pages == 1 && pdf.contains("Arimo") && !pdf.contains("DejaVu"));
-    let eps = place.text("print/energy-loss.eps");
+    let eps = place.text("print/figures/energy-loss.eps");
     assert!(eps.starts_with("%!PS-Adobe-3.0 EPSF-3.0\n"));
     let sides = between(&eps, "%%HiResBoundingBox: 0 0 ", "\n");
     assert_eq!(sides.split(' ').next(), Some("240.9449"));

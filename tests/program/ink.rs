@@ -36,7 +36,7 @@ fn of_sweep(name: &str, plan: SweepPlan) -> Pictures {
 /// The figures that a command keeps in the folder that it writes.
 fn kept(place: &Place, command: &str) -> Pictures {
     place.done(&format!("{command} --out out"));
-    let kept = KeptFigures::read(&place.bytes("out/figures.json")).unwrap();
+    let kept = KeptFigures::read(&place.bytes("out/records/figures.json")).unwrap();
     fs::remove_dir_all(place.path("out")).unwrap();
     let pictures = kept.into_pictures();
     pictures

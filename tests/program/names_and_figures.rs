@@ -21,7 +21,7 @@ fn an_underscore_in_a_name_sets_no_subscript() {
     place.done(&format!(
         "sweep letters.toml --out out {SVG} --set figures.svg_text=text"
     ));
-    let svg = place.text("out/energy-loss.svg");
+    let svg = place.text("out/figures/energy-loss.svg");
     assert!(svg.contains(">poly_2</text>"), "{svg}");
     assert!(place.text("out/energy-loss.caption.txt").contains("poly_2"));
 }

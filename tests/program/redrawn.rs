@@ -128,12 +128,14 @@ fn what_is_read_of_a_history_is_what_was_computed() {
         let records = std::mem::take(&mut computed.profiles);
         let profiles: Vec<Profile> = records.iter().map(Profile::of).collect();
         assert_eq!(profiles.len(), 3);
-        // The index of surfaces has no peak pressure.
+        // The index of surfaces has neither peak pressure nor work.
         for (read, computed) in read.profiles.iter_mut().zip(&profiles) {
             read.row.peak_pressure_pa = computed.row.peak_pressure_pa;
+            read.row.work_j = computed.row.work_j;
         }
         for (read, computed) in read.outcome.fields.iter_mut().zip(&computed.fields) {
             read.row.peak_pressure_pa = computed.row.peak_pressure_pa;
+            read.row.work_j = computed.row.work_j;
         }
         assert_eq!(read.profiles, profiles);
         assert_eq!(read.outcome, computed);

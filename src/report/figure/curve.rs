@@ -272,7 +272,11 @@ impl<'a> SweepCurves<'a> {
         match (&self.family, self.curves.len()) {
             (_, 0 | 1) => format!("over {over}"),
             (Some(family), _) => format!("over {over}, {shown} curves, one per {}", family.words),
-            (None, _) => format!("over {over}, {shown} curves"),
+            (None, _) => {
+                let axes = self.plan.axes.as_ref().filter(|axes| axes.over.len() == 1);
+                let of = axes.map(|axes| format!(", one per {}", axes.varied().words()));
+                format!("over {over}, {shown} curves{}", of.unwrap_or_default())
+            }
         }
     }
 

@@ -2,7 +2,7 @@
 //! over two axes.
 
 use super::curve::{Curve, SweepCurves};
-use super::plot::{Plot, Point, Quantity, Spread, Trace, is_even, scale};
+use super::plot::{Plot, Point, Quantity, Spread, Trace, WIDE, is_even, scale};
 use super::{Drawn, Figure};
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, HeatMap, MapShape, Scale};
@@ -16,9 +16,8 @@ const ROWS: usize = 96;
 const LEAST: usize = 4;
 /// Cases that are dots, at most; more would hide the colours.
 const DOTS: usize = 200;
-/// Values that vary by more than this have colours on a logarithmic scale; the second axis likewise.
+/// Values that vary by more than this have colours on a logarithmic scale.
 const WIDE_COLOURS: f64 = 30.0;
-const WIDE: f64 = 8.0;
 
 /// What is mapped.
 pub struct Mapped<'a> {

@@ -1,13 +1,13 @@
 //! Figures of a material identified from measured cycles or a history: data and model, residuals, and the moduli with their bands.
 
-use super::plot::{Plot, Point, Quantity, Spread, Trace};
+use super::plot::{self, Plot, Point, Quantity, Spread, Trace, scale};
 use super::quantity::{MODULUS, RESIDUAL, TIME};
 use super::units::{Measure, Units};
 use crate::identify::data::Number;
 use crate::identify::{Compared, ModulusBand};
 use crate::quantity::Dimension;
 use crate::report::caption::Caption;
-use crate::report::chart::{LineStyle, Mark, Marker};
+use crate::report::chart::{LineStyle, Mark, Marker, Scale};
 use crate::report::figure::Figure;
 use crate::report::identify::IdentifyReport;
 use crate::report::identify::tables;
@@ -83,7 +83,12 @@ fn frame(report: &IdentifyReport<'_>, number: Number) -> Plot {
     let numbers = of(report, number);
     let (name, dimension) = words(number);
     let measure = dimension.map_or(Measure::Number, Measure::Of);
-    let quantity = Quantity::new("value", name, measure).spread(Spread::OfValues);
+    // What the model makes of them, which may be zero, does not decide on the axis.
+    let spread = match scale(range(numbers.iter().map(|c| c.measured)), plot::WIDE) {
+        Scale::Log => Spread::Log,
+        Scale::Linear => Spread::Linear,
+    };
+    let quantity = Quantity::new("value", name, measure).spread(spread);
     let measured = numbers
         .iter()
         .map(|c| Point::new(c.place, c.measured).error(c.error));

@@ -61,10 +61,12 @@ pub fn figure(sweep: &SweepCurves<'_>) -> Figure {
         let points = samples.approach_m.iter().zip(&samples.load_n);
         Trace::line(points.map(|(approach_m, load_n)| (*approach_m, *load_n)))
             .label(&one.label)
+            .member(sweep.place(one.record))
             .color(Color::of_family(step, of))
     });
     let curve = largest(&sweep.curves).filter(|_| sweep.is_of_one_curve());
     let plot = Plot::new(APPROACH, LOAD)
+        .family(curve.map(|_| sweep.x.clone()))
         .title(curve.and_then(|curve| curve.label.clone()))
         .traces(traces);
     let caption = caption(curve, &shown);

@@ -167,21 +167,26 @@ impl Diagram {
                     is_only: self.parts.len() == 1,
                     curve: curve.label.as_deref().filter(|_| curves.len() > 1),
                 };
-                let drawn = own
-                    .iter()
-                    .map(|(x, modulus)| Point::new(place(*x, *modulus), (part.number)(*modulus)));
+                let drawn = own.iter().map(|(x, modulus)| {
+                    Point::new(place(*x, *modulus), (part.number)(*modulus)).along(*x)
+                });
                 traces.push(look.line(part, drawn));
                 let symbols = loops.iter().map(|at| {
                     let x = place(sweep.place(at.record), at.modulus_pa);
                     let error = part.error.and_then(|error| at.errors_pa()[error]);
-                    Point::new(x, (part.number)(at.modulus_pa)).error(error)
+                    Point::new(x, (part.number)(at.modulus_pa))
+                        .error(error)
+                        .along(sweep.place(at.record))
                 });
                 traces.push(look.symbols(part, symbols));
             }
         }
         let y = self.y.clone();
         let plot = match &self.x {
-            Some((quantity, _)) => Plot::new(quantity.clone(), y),
+            Some((quantity, _)) => Plot {
+                along: Some(sweep.x.clone()),
+                ..Plot::new(quantity.clone(), y)
+            },
             None => sweep.plot(y).family(None),
         };
         let title = curves.first().and_then(|(curve, _)| curve.label.clone());

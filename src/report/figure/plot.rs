@@ -37,7 +37,7 @@ pub enum Spread {
 }
 
 /// Values more than so many times apart are not seen together on a linear axis.
-const WIDE: f64 = 8.0;
+pub(super) const WIDE: f64 = 8.0;
 /// The same of the highest points of curves.
 const WIDE_CURVES: f64 = 20.0;
 
@@ -118,6 +118,8 @@ pub struct Point {
     pub error: Option<f64>,
     /// The two edges of a band.
     pub band: Option<(f64, f64)>,
+    /// Its value of [`Plot::along`].
+    pub along: Option<f64>,
 }
 
 impl Point {
@@ -127,6 +129,15 @@ impl Point {
             y: y.into(),
             error: None,
             band: None,
+            along: None,
+        }
+    }
+
+    #[must_use]
+    pub fn along(self, value: f64) -> Self {
+        Self {
+            along: Some(value),
+            ..self
         }
     }
 
@@ -282,6 +293,8 @@ pub struct Plot {
     pub y: Quantity,
     /// What the curves are a family of: a column of the table.
     pub family: Option<Quantity>,
+    /// What changes along a curve of which neither axis is it: another column.
+    pub along: Option<Quantity>,
     pub traces: Vec<Trace>,
     /// Places in SI units.
     pub marks: Vec<Mark>,
@@ -301,6 +314,7 @@ impl Plot {
             x,
             y,
             family: None,
+            along: None,
             traces: Vec::new(),
             marks: Vec::new(),
             title: None,
@@ -747,11 +761,18 @@ impl Table {
             (_, _, Some(label)) => Some((self.place("curve"), Cell::from(label.as_str()))),
             (_, _, None) => None,
         };
+        let along = plot.along.as_ref().map(|along| self.place(&*along.column));
         let x = self.place(&*plot.x.column);
         let first = self.rows.len();
-        self.rows.extend(xs.iter().map(|value| {
-            let place = (x, Cell::from(*value));
-            which.clone().into_iter().chain([place]).collect()
+        self.rows.extend(trace.points.iter().map(|point| {
+            let along = along.map(|place| (place, Cell::from(point.along)));
+            let place = (x, Cell::from(point.x));
+            which
+                .clone()
+                .into_iter()
+                .chain(along)
+                .chain([place])
+                .collect()
         }));
         self.curves.push((name, xs, first));
         first

@@ -4,8 +4,9 @@
 /// `(x, y)` on the scales of the axes.
 type Point = (f64, f64);
 
-/// Pieces of the drawn curve between two samples.
-const PIECES: usize = 16;
+/// Pieces of a drawn curve, about, and most of them between two samples.
+const PIECES: usize = 400;
+const MOST_BETWEEN: usize = 16;
 
 /// How far the curve through every second sample may be from the samples that it leaves out, relative to the range of all. With
 /// all samples, which are twice as dense, the error of the third order is an eighth of that: less than a line is wide.
@@ -90,9 +91,10 @@ pub(super) fn curve(samples: &[Point], located: &[Point]) -> Option<Vec<Point>> 
         return None;
     }
     let smooth = Smooth::through(&all);
+    let between = (PIECES / all.len()).clamp(1, MOST_BETWEEN);
     let pieces = (0..all.len() - 1).flat_map(|k| {
         let smooth = &smooth;
-        (0..PIECES).map(move |piece| smooth.between(k, piece as f64 / PIECES as f64))
+        (0..between).map(move |piece| smooth.between(k, piece as f64 / between as f64))
     });
     Some(pieces.chain(all.last().copied()).collect())
 }
@@ -187,6 +189,6 @@ mod tests {
         let line: Vec<Point> = (0..5).map(|k| (f64::from(k), 2.0 * f64::from(k))).collect();
         let drawn = curve(&line, &[]).unwrap();
         assert!(drawn.iter().all(|(x, y)| (y - 2.0 * x).abs() < 1e-12));
-        assert_eq!(drawn.len(), 4 * PIECES + 1);
+        assert_eq!(drawn.len(), 4 * MOST_BETWEEN + 1);
     }
 }
