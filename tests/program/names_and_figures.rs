@@ -23,7 +23,11 @@ fn an_underscore_in_a_name_sets_no_subscript() {
     ));
     let svg = place.text("out/figures/energy-loss.svg");
     assert!(svg.contains(">poly_2</text>"), "{svg}");
-    assert!(place.text("out/energy-loss.caption.txt").contains("poly_2"));
+    assert!(
+        place
+            .text("out/figures/energy-loss.caption.txt")
+            .contains("poly_2")
+    );
 }
 
 #[test]

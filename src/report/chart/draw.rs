@@ -6,7 +6,7 @@ use super::arrange::{Arrangement, arrange, arrange_beside};
 use super::canvas::Canvas;
 use super::check::subject;
 use super::drawing::{Drawing, Shape};
-use super::layers::{Layer, paint};
+use super::layers::{Counts, Layer, paint};
 use super::notes::Notes;
 use super::{Chart, ChartError, Size, heat_map};
 
@@ -69,7 +69,7 @@ fn painted(
     chart: &Chart,
     arrangement: &Arrangement,
     top_px: f64,
-) -> Result<(Vec<Shape>, Vec<(Layer, usize)>), ChartError> {
+) -> Result<(Vec<Shape>, Counts), ChartError> {
     let (mut shapes, mut layers) = (Vec::new(), Vec::new());
     for layer in Layer::ALL {
         let mut canvas = Canvas::new(chart);

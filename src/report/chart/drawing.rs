@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use tiny_skia::{Path, Transform};
 
-use super::layers::Layer;
+use super::layers::Counts;
 use super::look::TEXT;
 use super::notes::Notes;
 use super::text::{Anchor, Line};
@@ -31,7 +31,7 @@ pub struct Drawing {
     pub(super) families: String,
     pub(super) shapes: Vec<Shape>,
     /// Where (px) each chart begins, and how many of its shapes are of which layer, from back to front.
-    pub(super) layers: Vec<(u32, Vec<(Layer, usize)>)>,
+    pub(super) layers: Vec<(u32, Counts)>,
     pub(super) notes: Notes,
 }
 

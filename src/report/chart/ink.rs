@@ -293,7 +293,7 @@ mod tests {
             "energy loss per cycle / µJ"
         };
         let mut chart = Chart::new(Axis::log("angular frequency ω / rad·s⁻¹"), Axis::linear(y));
-        if seed % 3 == 0 {
+        if seed.is_multiple_of(3) {
             chart = chart.title(
                 "PMMA under a rigid sphere, the curves of all the amplitudes that were computed",
             );

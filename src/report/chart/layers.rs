@@ -14,6 +14,9 @@ use super::text::{Anchor, CAPITAL_EM, DESCENT_EM};
 use super::titles::PITCH_EM;
 use super::{Chart, Color, LineStyle, Series, heat_map, marker};
 
+/// How many shapes each layer has, from back to front.
+pub(super) type Counts = Vec<(Layer, usize)>;
+
 /// What is drawn together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Layer {

@@ -70,7 +70,7 @@ impl Phrase {
 }
 
 /// A space of the font.
-const SPACE_EM: f64 = 0.318;
+const SPACE_EM: f64 = 0.32;
 
 /// What a line may end with, and its width. A slash keeps the symbol before it and the unit after it together.
 fn words(text: &str, typeface: &Typeface) -> Vec<(String, f64)> {

@@ -104,15 +104,17 @@ const NONE: &str = "no figures of the moduli: fewer than two loops have equivale
 /// The diagrams of a sweep: of its curve of the largest loss, or of every material or indenter of a list.
 pub fn of_sweep(sweep: &SweepCurves<'_>) -> Vec<Drawn> {
     let curves = with_loops(sweep);
-    match curves.is_empty() {
-        true => vec![Err(NONE)],
-        false => {
-            let figures = DIAGRAMS
-                .iter()
-                .map(|diagram| Ok(diagram.of_sweep(sweep, &curves)));
-            figures.collect()
-        }
+    if curves.is_empty() {
+        return vec![Err(NONE)];
     }
+    // Where the modulus of the material does not vary, a diagram of moduli over moduli is a point.
+    let own = curves.iter().flat_map(|(_, loops)| loops);
+    let (least, largest) = range(own.map(|at| at.own_pa.norm()));
+    let varies = largest > 1.01 * least;
+    let all = DIAGRAMS.iter();
+    let all = all.filter(|diagram| varies || diagram.x.is_none());
+    all.map(|diagram| Ok(diagram.of_sweep(sweep, &curves)))
+        .collect()
 }
 
 /// The moduli over an axis of a sweep.

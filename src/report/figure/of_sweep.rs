@@ -64,7 +64,7 @@ fn of_main_axis(sweep: &SweepCurves<'_>) -> Vec<Drawn> {
         dissipation_map::figure(curve, units),
     ];
     drawn.extend(moduli::of_sweep(sweep));
-    if sweep.family.is_some() {
+    if sweep.family.is_some() && sweep.curves.len() > 1 {
         drawn.extend([loss_map::figure(sweep), harmonic_map::figure(sweep)]);
     }
     match (sweep.over, &plan.axes) {

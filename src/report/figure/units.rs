@@ -49,14 +49,12 @@ pub enum Measure {
     Number,
 }
 
+/// A unit of normalised axes: its size (SI) and its symbol.
+type Normal = (fn(&ElasticScale) -> f64, &'static str);
+
 impl Measure {
     /// The SI unit, and that of normalised axes with its size (SI); `None` where these are the same.
-    fn units(
-        self,
-    ) -> (
-        &'static str,
-        Option<(fn(&ElasticScale) -> f64, &'static str)>,
-    ) {
+    fn units(self) -> (&'static str, Option<Normal>) {
         match self {
             Self::Energy => ("J", Some((ElasticScale::energy_j, "W₀δ₀"))),
             Self::Load => ("N", Some((|scale| scale.load_n, "W₀"))),

@@ -225,7 +225,7 @@ mod tests {
         assert_eq!(
             &whole[sweep.len()..],
             "\n[figures]\nloops = [\"0.001 rad/s\", \"0.1 rad/s\"]\ncurves = [1.0, 3.0]\n\
-             frequency_range = [\"0.001 rad/s\", \"1 rad/s\"]\nenergy_loss_range = [\"0 J\", \"0.000004 J\"]\nfrequency_unit = \"Hz\"\nwidth = \"0.085 m\"\nheight = \"0.06 m\"\nfont_size = 7.0\n\
+             frequency_range = [\"0.001 rad/s\", \"1 rad/s\"]\nenergy_loss_range = [\"0 J\", \"4e-6 J\"]\nfrequency_unit = \"Hz\"\nwidth = \"0.085 m\"\nheight = \"0.06 m\"\nfont_size = 7.0\n\
              font = \"serif\"\ncolors = \"grey\"\nformats = [\"png\", \"pdf\"]\nsvg_text = \"text\"\ndpi = 600\naxes = \"normalised\"\ntitles = false\n"
         );
     }
