@@ -30,7 +30,7 @@ impl Drawing {
     /// document.
     ///
     /// # Errors
-    /// [`ChartError::Pdf`] where krilla refuses it.
+    /// [`ChartError::Internal`] where krilla refuses it.
     pub fn to_pdf(&self) -> Result<Vec<u8>, ChartError> {
         let extent = self.extent();
         let points = |mm: f64| (mm * POINTS_PER_MM) as f32;

@@ -30,7 +30,7 @@ pub struct Quantity {
 pub enum Spread {
     Linear,
     Log,
-    /// Where values, all above zero, are more than [`WIDE`] times apart and not evenly spaced.
+    /// Where values, all above zero, are more than eight times apart and not evenly spaced.
     OfValues,
     /// Where the highest points of the curves are: on a linear axis the lowest curve would lie on the axis.
     OfCurves,
