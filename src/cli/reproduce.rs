@@ -16,7 +16,7 @@ use crate::report::machine::object;
 use crate::report::table::Cell;
 use crate::report::text::Text;
 use crate::reproduction::{
-    self, Count, FIGURES, Figure, Plans, ReproductionError, SCENARIOS, SWEEPS, Verdict,
+    self, FIGURES, Figure, Plans, ReproductionError, SCENARIOS, SWEEPS, Verdict,
 };
 use crate::sweep::store::manifest::{Kind, Target};
 
@@ -120,16 +120,18 @@ fn plans() -> Result<Plans, Failure> {
 
 /// What is printed at the end.
 fn text(made: &[Figure], folder: &Path) -> Text {
-    let counted = format!("{} figures: {}", made.len(), Count::of(made).text());
+    let counted = format!("{} figures: {}", made.len(), reproduction::counted(made));
     let mut text = Text::default();
     text.paragraph(counted);
-    let statements = made.iter().flat_map(|figure| &figure.statements);
-    for statement in statements.filter(|s| s.verdict == Verdict::Disagrees) {
-        let line = format!(
-            "disagrees: figure {}, {}; the paper: {}",
-            statement.figure, statement.computed, statement.paper
-        );
-        text.indented(line, "  ", "    ");
+    for figure in made {
+        let statements = figure.statements.iter();
+        for statement in statements.filter(|s| s.verdict == Verdict::Disagrees) {
+            let line = format!(
+                "disagrees: figure {}, {}; the paper: {}",
+                figure.number, statement.computed, statement.paper
+            );
+            text.indented(line, "  ", "    ");
+        }
     }
     text.append(format!("\nResults in {}", folder.display()));
     text

@@ -1,7 +1,8 @@
 //! Claims: one number each, as it is, as both engines compute it, and what the paper states of it.
 
+use super::Figure;
 use super::number::{difference, significant};
-use super::{ByEngine, Figure};
+use super::run::ByEngine;
 use crate::report::table::{Cell, cells, csv};
 
 /// One number.
@@ -11,30 +12,14 @@ pub struct Claim {
     pub source: Source,
     /// `None` where it is undefined or not computed.
     pub values: ByEngine<Option<f64>>,
-    pub measure: Measure,
-    pub stated: Stated,
-    pub note: String,
-}
-
-/// What the paper states of a value, and whether that is what comes out.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Stated {
-    /// Its words; of several statements one after the other.
+    /// What unit differences are in; `None` where they are relative to the exact value.
+    pub unit: Option<String>,
+    /// How near the axisymmetric and the half-space engine must come.
+    pub tolerances: [f64; 2],
+    /// What the paper states of it; of several statements one after the other.
     pub paper: String,
-    verdict: Verdict,
-}
-
-impl Stated {
-    /// Adds a statement. One that disagrees is heard.
-    pub(super) fn add(&mut self, paper: &str, verdict: Verdict) {
-        if !self.paper.is_empty() {
-            self.paper.push(' ');
-        }
-        self.paper.push_str(paper);
-        if self.verdict != Verdict::Disagrees {
-            self.verdict = verdict;
-        }
-    }
+    pub(super) stated: Verdict,
+    pub note: String,
 }
 
 /// Where the value comes from that computed values are held against.
@@ -48,15 +33,6 @@ pub enum Source {
     Difference,
     /// As [`Source::Refined`], a whole number.
     Count,
-}
-
-/// How near computed values must come.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Measure {
-    /// What unit differences are in; `None` where they are relative to the exact value.
-    unit: Option<&'static str>,
-    axisymmetric: f64,
-    half_space: f64,
 }
 
 /// Whether what the paper states is what comes out.
@@ -83,98 +59,39 @@ impl Verdict {
     }
 }
 
-/// What [`Claim::cells_below`] are.
-pub(super) const COLUMNS: [&str; 8] = [
-    "quantity",
-    "the paper",
-    "exact",
-    "axisymmetric",
-    "half-space",
-    "errors",
-    "verdict",
-    "note",
-];
-
 /// What stands in place of a value that is undefined.
 const UNDEFINED: &str = "undefined";
 
-impl Measure {
-    /// Differences relative to the exact value.
-    pub fn relative(axisymmetric: f64, half_space: f64) -> Self {
-        Self {
-            unit: None,
-            axisymmetric,
-            half_space,
-        }
-    }
-
-    /// Differences in the normalised unit of the quantity itself.
-    pub fn absolute(unit: &'static str, axisymmetric: f64, half_space: f64) -> Self {
-        Self {
-            unit: Some(unit),
-            axisymmetric,
-            half_space,
-        }
-    }
-
-    fn name(self) -> &'static str {
-        self.unit.unwrap_or("relative")
-    }
-}
-
 impl Claim {
-    /// One of which the paper states nothing yet.
-    pub fn new(
-        quantity: impl Into<String>,
-        source: Source,
-        values: ByEngine<Option<f64>>,
-        measure: Measure,
-    ) -> Self {
-        Self {
-            quantity: quantity.into(),
-            source,
-            values,
-            measure,
-            stated: Stated::default(),
-            note: String::new(),
+    /// Adds a statement of the paper. One that disagrees decides the verdict.
+    pub(super) fn add(&mut self, paper: &str, verdict: Verdict) {
+        if !self.paper.is_empty() {
+            self.paper.push(' ');
         }
-    }
-
-    /// One whose computed values are differences themselves.
-    pub fn difference(
-        quantity: impl Into<String>,
-        computed: [Option<f64>; 2],
-        measure: Measure,
-    ) -> Self {
-        let values = ByEngine::of(Some(0.0), computed);
-        Self::new(quantity, Source::Difference, values, measure)
-    }
-
-    /// The same with a note.
-    #[must_use]
-    pub fn note(mut self, note: impl Into<String>) -> Self {
-        self.note = note.into();
-        self
+        self.paper.push_str(paper);
+        if self.stated != Verdict::Disagrees {
+            self.stated = verdict;
+        }
     }
 
     /// Whether there is no value to compare: no exact one, or of a difference none that is computed.
     pub fn is_undefined(&self) -> bool {
-        let ByEngine {
-            exact,
-            axisymmetric,
-            half_space,
-        } = self.values;
+        let [exact, axisymmetric, half_space] = self.values;
         match self.source {
             Source::Difference => axisymmetric.or(half_space).is_none(),
             _ => exact.is_none(),
         }
     }
 
+    fn unit(&self) -> &str {
+        self.unit.as_deref().unwrap_or("relative")
+    }
+
     /// The verdict, which a value that is undefined does not allow.
     pub fn judged(&self) -> Verdict {
         match self.is_undefined() {
             true => Verdict::Undefined,
-            false => self.stated.verdict,
+            false => self.stated,
         }
     }
 
@@ -187,17 +104,16 @@ impl Claim {
         };
         let mut texts = self.values.map(|value| value.map(text).unwrap_or_default());
         if self.source == Source::Difference {
-            texts.exact.clear();
+            texts[0].clear();
         }
         texts
     }
 
     /// By how much the computed values differ; `None` where one of the two is undefined.
     pub fn errors(&self) -> [Option<f64>; 2] {
-        let ByEngine { exact, .. } = self.values;
-        let unit = self.measure.unit.map(|_| 1.0).or(exact.map(f64::abs));
-        [self.values.axisymmetric, self.values.half_space]
-            .map(|value| Some((value? - exact?) / unit?))
+        let [exact, axisymmetric, half_space] = self.values;
+        let unit = self.unit.as_ref().map(|_| 1.0).or(exact.map(f64::abs));
+        [axisymmetric, half_space].map(|value| Some((value? - exact?) / unit?))
     }
 
     /// The same as printed; empty where the value is itself a difference or a count.
@@ -208,48 +124,30 @@ impl Claim {
         })
     }
 
-    /// The claim as a row to be read, below another one: what the paper states of both stands once.
-    pub(super) fn cells_below(&self, above: Option<&Claim>) -> [String; 8] {
-        let is_same = |above: &Claim| above.stated.paper == self.stated.paper;
-        let paper = match !self.stated.paper.is_empty() && above.is_some_and(is_same) {
-            true => "as above".to_owned(),
-            false => self.stated.paper.clone(),
-        };
-        let ByEngine {
-            exact,
-            axisymmetric,
-            half_space,
-        } = self.texts();
-        let exact = match self.source {
-            Source::Refined | Source::Count if !exact.is_empty() => format!("{exact} (refined)"),
+    /// The exact value in a table to be read.
+    fn exact_text(&self) -> String {
+        let [exact, ..] = self.texts();
+        match self.source {
             Source::Difference => exact,
             _ if self.is_undefined() => UNDEFINED.to_owned(),
-            _ => exact,
-        };
-        let errors = self.error_texts().into_iter();
-        let errors: Vec<String> = errors.filter(|text| !text.is_empty()).collect();
-        let mut errors = errors.join(", ");
-        if !errors.is_empty() {
-            errors.push_str(&format!(" {}", self.measure.name()));
+            Source::Refined | Source::Count => format!("{exact} (refined)"),
+            Source::ClosedForm => exact,
         }
-        let verdict = self.judged().name().to_owned();
-        let (quantity, note) = (self.quantity.clone(), self.note.clone());
-        [
-            quantity,
-            paper,
-            exact,
-            axisymmetric,
-            half_space,
-            errors,
-            verdict,
-            note,
-        ]
+    }
+
+    /// Both errors, likewise.
+    fn errors_text(&self) -> String {
+        let mut texts = self.error_texts().to_vec();
+        texts.retain(|text| !text.is_empty());
+        match texts.is_empty() {
+            true => String::new(),
+            false => format!("{} {}", texts.join(", "), self.unit()),
+        }
     }
 
     /// Whether both engines come as near as they must; `None` where the value is undefined.
     pub fn is_accurate(&self) -> Option<bool> {
-        let allowed = [self.measure.axisymmetric, self.measure.half_space];
-        let mut pairs = self.errors().into_iter().zip(allowed);
+        let mut pairs = self.errors().into_iter().zip(self.tolerances);
         let near = pairs.all(|(error, allowed)| error.is_none_or(|e| e.abs() <= allowed));
         (!self.is_undefined()).then_some(near)
     }
@@ -257,11 +155,40 @@ impl Claim {
 
 type Column = (&'static str, fn(&Claim) -> String);
 
+const QUANTITY: Column = ("quantity", |c| c.quantity.clone());
+const AXISYMMETRIC: Column = ("axisymmetric", |c| c.texts()[1].clone());
+const VERDICT: Column = ("verdict", |c| c.judged().name().to_owned());
+const NOTE: Column = ("note", |c| c.note.clone());
+
+/// Columns of a table to be read.
+pub(super) const COLUMNS: [Column; 8] = [
+    QUANTITY,
+    ("the paper", |c| c.paper.clone()),
+    ("exact", Claim::exact_text),
+    AXISYMMETRIC,
+    ("half-space", |c| c.texts()[2].clone()),
+    ("errors", Claim::errors_text),
+    VERDICT,
+    NOTE,
+];
+
+/// Its rows: what the paper states of one and of the next stands once.
+pub(super) fn rows(claims: &[Claim]) -> impl Iterator<Item = [String; 8]> {
+    let above = std::iter::once("").chain(claims.iter().map(|claim| &claim.paper[..]));
+    claims.iter().zip(above).map(|(claim, above)| {
+        let mut cells = COLUMNS.map(|(_, cell)| cell(claim));
+        if !above.is_empty() && above == claim.paper {
+            cells[1] = "as above".to_owned();
+        }
+        cells
+    })
+}
+
 /// Columns of `claims.csv` after the number of the figure.
 const TABLE: [Column; 12] = [
-    ("quantity", |c| c.quantity.clone()),
-    ("paper", |c| c.stated.paper.clone()),
-    ("exact", |c| c.texts().exact),
+    QUANTITY,
+    ("paper", |c| c.paper.clone()),
+    ("exact", |c| c.texts()[0].clone()),
     ("exact_source", |c| {
         let source = match c.source {
             Source::ClosedForm => "closed form",
@@ -270,17 +197,17 @@ const TABLE: [Column; 12] = [
         };
         source.to_owned()
     }),
-    ("axisymmetric", |c| c.texts().axisymmetric),
-    ("half_space", |c| c.texts().half_space),
-    ("error_unit", |c| c.measure.name().to_owned()),
+    AXISYMMETRIC,
+    ("half_space", |c| c.texts()[2].clone()),
+    ("error_unit", |c| c.unit().to_owned()),
     ("axisymmetric_error", |c| c.error_texts()[0].clone()),
     ("half_space_error", |c| c.error_texts()[1].clone()),
     ("within_accuracy", |c| {
         let word = |accurate| if accurate { "yes" } else { "no" };
         c.is_accurate().map(word).unwrap_or_default().to_owned()
     }),
-    ("verdict", |c| c.judged().name().to_owned()),
-    ("note", |c| c.note.clone()),
+    VERDICT,
+    NOTE,
 ];
 
 /// The columns and rows of `claims.csv`.
@@ -305,28 +232,32 @@ pub(super) fn table(figures: &[Figure]) -> Vec<u8> {
 mod tests {
     use super::*;
 
-    fn claim(source: Source, exact: Option<f64>, measure: Measure) -> Claim {
-        let values = ByEngine::of(exact, [Some(1.5), None]);
-        let mut claim = Claim::new("largest pressure / p_H", source, values, measure);
-        claim.stated.verdict = Verdict::Agrees;
-        claim
+    fn claim(source: Source, exact: Option<f64>, unit: Option<&str>) -> Claim {
+        Claim {
+            quantity: "largest pressure / p_H".to_owned(),
+            source,
+            values: [exact, Some(1.5), None],
+            unit: unit.map(str::to_owned),
+            tolerances: [1e-3; 2],
+            paper: String::new(),
+            stated: Verdict::Agrees,
+            note: String::new(),
+        }
     }
 
     #[test]
     fn a_claim_whose_value_is_undefined_says_so_and_has_no_error() {
-        let relative = Measure::relative(1e-3, 1e-3);
-        let absolute = Measure::absolute("of p_H", 1e-3, 1e-3);
-        for (source, measure) in [
-            (Source::ClosedForm, relative),
-            (Source::Refined, absolute),
-            (Source::Count, absolute),
+        for (source, unit) in [
+            (Source::ClosedForm, None),
+            (Source::Refined, Some("of p_H")),
+            (Source::Count, Some("of p_H")),
         ] {
-            let claim = claim(source, None, measure);
+            let claim = claim(source, None, unit);
             assert!(claim.is_undefined());
             assert_eq!(claim.judged(), Verdict::Undefined);
             assert_eq!(claim.is_accurate(), None);
             assert_eq!(claim.errors(), [None, None]);
-            let cells = claim.cells_below(None);
+            let cells = rows(std::slice::from_ref(&claim)).next().unwrap();
             assert_eq!([cells[2].as_str(), &cells[5]], ["undefined", ""]);
             // What is computed stands nevertheless.
             assert!(cells[3].starts_with("1.5") && cells[4].is_empty());
@@ -336,13 +267,13 @@ mod tests {
 
     #[test]
     fn the_table_of_claims_has_empty_cells_where_a_value_is_undefined() {
-        let measure = Measure::absolute("of p_H", 1e-3, 1e-3);
         let figure = Figure {
             number: 10,
             caption: String::new(),
+            discussion: None,
             panels: Vec::new(),
             data: Vec::new(),
-            claims: vec![claim(Source::Refined, None, measure)],
+            claims: vec![claim(Source::Refined, None, Some("of p_H"))],
             statements: Vec::new(),
         };
         let text = String::from_utf8(table(&[figure])).unwrap();
@@ -355,10 +286,9 @@ mod tests {
 
     #[test]
     fn a_difference_that_no_engine_has_is_undefined() {
-        let measure = Measure::absolute("of p_H", 1e-3, 1e-3);
-        let mut computed = claim(Source::Difference, Some(0.0), measure);
+        let mut computed = claim(Source::Difference, Some(0.0), Some("of p_H"));
         assert_eq!(computed.judged(), Verdict::Agrees);
-        computed.values.axisymmetric = None;
+        computed.values[1] = None;
         assert_eq!(computed.judged(), Verdict::Undefined);
         assert_eq!(computed.is_accurate(), None);
     }

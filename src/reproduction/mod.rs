@@ -2,67 +2,59 @@
 //! 2018, 9432894: each as a picture with its data, and every number that can be read from the paper or worked out for it as
 //! a claim, computed by both engines and held against its exact value.
 //!
+//! What a figure shows, how its numbers are read and what the paper states of them are data (`figures.toml`, read by `spec`). From
+//! there the way is one for all figures: the curves of each family (`curve`), what has to be computed for them, each once (`run`),
+//! rows in the paper's units read of that (`table`) or known exactly (`exact`), and of these the picture with its data (`draw`) and
+//! the numbers (`value`), which the statements of the paper are held against (`statement`).
+//!
 //! The scenarios and sweeps are the files of `sweeps/spinu-2018/`, built into the program; they come in as finished plans,
-//! because reading files is another room's business. Everything is in the paper's normalised units ([`Scale`]). This room
-//! alone among those that serve users knows [`mod@crate::reference`]: it draws closed forms as lines and compares with them,
-//! and computes nothing from them.
+//! because reading them is the business of another module. This module alone among those that serve users knows
+//! [`mod@crate::reference`]: it draws closed forms as lines and compares with them, and computes nothing from them.
 //!
 //! What is written must be the same bytes wherever and whenever it is made. Numbers are therefore printed to five
 //! significant digits, and differences below what the computation resolves as "< 1e-9" (`number`).
 
-mod by_engine;
 mod claim;
-mod curves;
-mod cycles;
-mod figure_01;
-mod figure_06;
-mod figure_08_09;
-mod figure_10_12;
-mod figure_13;
+mod curve;
+mod draw;
+mod exact;
 mod number;
 mod page;
 mod readme;
-mod scale;
-mod stabilised;
+mod run;
+mod spec;
 mod statement;
-mod step_load;
-mod wording;
+mod table;
+mod value;
 
 use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
-pub use by_engine::ByEngine;
-pub use claim::{Claim, Measure, Source, Stated, Verdict, claims};
-pub use scale::Scale;
-pub use statement::{Count, Judged};
+pub use claim::{Claim, Source, Verdict, claims};
+pub use run::ByEngine;
+pub use statement::{Judged, counted};
 
-use crate::contact::ContactError;
-use crate::cycle::LoopError;
-use crate::drive::HistoryError;
-use crate::engine::EngineError;
 use crate::figures::paper;
-use crate::material::{Material, MaterialError};
 use crate::report::ReportError;
 use crate::report::chart::Chart;
 use crate::report::figure::Picture;
 use crate::report::figure::press::{Files, Press};
 use crate::report::page::Pictures;
 use crate::simulation::scenario::ScenarioPlan;
-use crate::sweep::case::SetupError;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::plan::figures::FigurePlan;
-use crate::sweep::search::peak::PeakError;
-use crate::sweep::search::run::{self, RunError};
-use crate::sweep::store::StoreError;
+use crate::sweep::search::run::{RunError, pool};
 use crate::sweep::store::files::{DATA, Place};
-use number::Data;
+use curve::Curve;
+use run::unfit;
+use spec::FigureSpec;
 
 /// The figures of the paper that show computed results; 2 and 3 are flowcharts.
 pub const FIGURES: [u8; 11] = [1, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13];
 
-/// Numbers of a figure told in its caption; all are in claims.csv.
+/// Numbers of a figure in its caption; all are in claims.csv.
 const NUMBERS_IN_CAPTION: usize = 4;
 
 macro_rules! files {
@@ -72,29 +64,15 @@ macro_rules! files {
 }
 
 /// Scenario files by name.
-pub const SCENARIOS: [(&str, &str); 12] = files![
-    "figure-01",
-    "figure-04",
-    "figure-05",
-    "figure-06-case-1",
-    "figure-06-case-2",
-    "figure-06-case-3",
-    "figure-07-maxwell",
-    "figure-07-zener",
-    "figure-08-a",
-    "figure-08-b",
-    "figure-09",
-    "figure-13-first-touch",
-];
+pub const SCENARIOS: [(&str, &str); 12] = files! {
+    "figure-01", "figure-04", "figure-05", "figure-06-case-1", "figure-06-case-2", "figure-06-case-3", "figure-07-maxwell",
+    "figure-07-zener", "figure-08-a", "figure-08-b", "figure-09", "figure-13-first-touch",
+};
 
 /// Sweep files by name.
-pub const SWEEPS: [(&str, &str); 5] = files![
-    "figure-10",
-    "figure-11",
-    "figure-12",
-    "figure-12-peak",
-    "figure-13",
-];
+pub const SWEEPS: [(&str, &str); 5] = files! {
+    "figure-10", "figure-11", "figure-12", "figure-12-peak", "figure-13",
+};
 
 /// The plans that the files ask for.
 #[derive(Debug, Clone, Default)]
@@ -108,28 +86,22 @@ type Result<T, E = ReproductionError> = std::result::Result<T, E>;
 /// Why a figure cannot be made.
 #[derive(Debug, thiserror::Error)]
 pub enum ReproductionError {
-    #[error("there is no plan named {0}")]
-    NoPlan(&'static str),
     #[error("{0}")]
     Unfit(String),
     #[error(transparent)]
-    Setup(#[from] SetupError),
+    Setup(#[from] crate::sweep::case::SetupError),
     #[error(transparent)]
-    Material(#[from] MaterialError),
+    Material(#[from] crate::material::MaterialError),
     #[error(transparent)]
-    Engine(#[from] EngineError),
+    Engine(#[from] crate::engine::EngineError),
     #[error(transparent)]
-    Contact(#[from] ContactError),
-    #[error(transparent)]
-    Loop(#[from] LoopError),
+    Contact(#[from] crate::contact::ContactError),
     #[error(transparent)]
     Report(#[from] ReportError),
     #[error(transparent)]
-    Drive(#[from] HistoryError),
+    Drive(#[from] crate::drive::HistoryError),
     #[error(transparent)]
-    Peak(#[from] PeakError),
-    #[error(transparent)]
-    Store(#[from] StoreError),
+    Peak(#[from] crate::sweep::search::peak::PeakError),
     #[error(transparent)]
     Run(#[from] RunError),
     #[error("interrupted")]
@@ -142,6 +114,8 @@ pub struct Figure {
     pub number: u8,
     /// What is to be seen, for the page.
     pub caption: String,
+    /// A discussion of what disagrees.
+    pub discussion: Option<String>,
     /// The panels from top to bottom.
     pub panels: Vec<Chart>,
     /// The data behind it, as CSV.
@@ -152,22 +126,20 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// One of which the paper states nothing yet.
-    fn new(
-        number: u8,
-        caption: impl Into<String>,
-        panels: Vec<Chart>,
-        data: Data,
-        claims: Vec<Claim>,
-    ) -> Self {
-        Self {
-            number,
-            caption: caption.into(),
+    fn new(spec: &FigureSpec, curves: &[Curve<'_>], interrupt: &AtomicBool) -> Result<Self> {
+        let (panels, data) = draw::draw(spec, curves, interrupt)?;
+        let mut claims = value::claims(curves, interrupt)?;
+        let statements = spec.statements.iter();
+        let statements = statements.map(|statement| statement.judged(&mut claims));
+        Ok(Self {
+            number: spec.number,
+            statements: statements.collect::<Result<_>>()?,
+            caption: curves[0].filled(&spec.caption),
+            discussion: spec.discussion.clone(),
             panels,
-            data: data.finish(),
+            data,
             claims,
-            statements: Vec::new(),
-        }
+        })
     }
 
     /// The name of its files, without ending.
@@ -177,13 +149,11 @@ impl Figure {
 
     /// The caption to stand beside the picture alone: with units and the first numbers.
     fn full_caption(&self) -> String {
-        let exact = self.claims.iter().map(|c| (&c.quantity, c.texts().exact));
-        let told = exact
-            .filter(|(_, exact)| !exact.is_empty())
-            .take(NUMBERS_IN_CAPTION);
-        let numbers: Vec<String> = told
-            .map(|(name, exact)| format!("{name}: {exact}"))
-            .collect();
+        let claims = self.claims.iter();
+        let exact = claims.map(|claim| (&claim.quantity, claim.texts()[0].clone()));
+        let defined = exact.filter(|(_, exact)| !exact.is_empty());
+        let named = defined.map(|(name, exact)| format!("{name}: {exact}"));
+        let numbers: Vec<String> = named.take(NUMBERS_IN_CAPTION).collect();
         let numbers = match numbers.is_empty() {
             true => String::new(),
             false => format!(" Exact values: {}.", numbers.join("; ")),
@@ -198,66 +168,54 @@ impl Figure {
 }
 
 impl Plans {
-    fn scenario(&self, name: &'static str) -> Result<&ScenarioPlan> {
+    fn scenario(&self, name: &str) -> Result<&ScenarioPlan> {
         let plan = self.scenarios.get(name);
-        plan.ok_or(ReproductionError::NoPlan(name))
+        plan.ok_or_else(|| unfit(format!("there is no scenario named {name}")))
     }
 
-    fn sweep(&self, name: &'static str) -> Result<&SweepPlan> {
-        self.sweeps.get(name).ok_or(ReproductionError::NoPlan(name))
+    fn sweep(&self, name: &str) -> Result<&SweepPlan> {
+        let plan = self.sweeps.get(name);
+        plan.ok_or_else(|| unfit(format!("there is no sweep named {name}")))
     }
 }
 
-/// The material of a scenario as the series that the closed forms need.
-fn series_of(plan: &ScenarioPlan) -> Result<&Material> {
-    let unfit = || ReproductionError::Unfit("the scenario's material is no series".to_owned());
-    plan.contact.material.series().ok_or_else(unfit)
-}
-
-/// What makes figures: one of them, or several from the same computations.
-type Maker = fn(&Plans, &AtomicBool) -> Result<Vec<Figure>>;
-
-/// The longest first, so that threads end together.
-const MAKERS: [(&[u8], Maker); 7] = [
-    (&[8, 9, 10, 11, 12], cycles::figures),
-    (&[13], figure_13::figures),
-    (&[6], figure_06::figures),
-    (&[5], step_load::figure_5),
-    (&[7], step_load::figure_7),
-    (&[4], step_load::figure_4),
-    (&[1], figure_01::figures),
-];
-
-/// Makes these figures, in their order in the paper, on so many threads; the result does not depend on the number.
-/// `finished` hears of every figure.
+/// Makes these figures, in their order in the paper, on at most this many threads; the result does not depend on the number.
+/// `finished` is called with every figure for which everything is computed.
 ///
 /// # Errors
 /// [`ReproductionError`] of the first that cannot be made.
 pub fn make(
     plans: &Plans,
-    figures: &[u8],
+    numbers: &[u8],
     threads: usize,
     interrupt: &AtomicBool,
     finished: &(dyn Fn(u8) + Sync),
 ) -> Result<Vec<Figure>> {
-    let pool = run::pool(threads)?;
-    let wanted = |numbers: &[u8]| numbers.iter().any(|number| figures.contains(number));
-    let made: Vec<Vec<Figure>> = pool.install(|| {
-        let makers = MAKERS.par_iter().with_max_len(1);
-        let made = makers
-            .filter(|(numbers, _)| wanted(numbers))
-            .map(|(_, maker)| {
-                let mut made = maker(plans, interrupt)?;
-                made.retain(|figure| figures.contains(&figure.number));
-                made.iter().for_each(|figure| finished(figure.number));
-                Ok(made)
-            });
-        made.collect::<Result<_>>()
-    })?;
-    let mut made: Vec<Figure> = made.into_iter().flatten().collect();
-    made.sort_by_key(|figure| figure.number);
-    statement::judge(&mut made)?;
-    Ok(made)
+    let mut specs = spec::figures()?;
+    specs.retain(|spec| numbers.contains(&spec.number));
+    let mut figures = Vec::new();
+    for spec in &specs {
+        let mut curves = Vec::new();
+        for family in &spec.families {
+            curves.extend(curve::curves(family, plans)?);
+        }
+        figures.push((spec, curves));
+    }
+    pool(threads)?.install(|| {
+        let runs = figures.iter().flat_map(|(spec, curves)| {
+            let runs = curves.iter().flat_map(|curve| curve.runs.iter().flatten());
+            runs.map(|(_, run)| (spec.number, run))
+        });
+        let outcomes = run::outcomes(&runs.collect::<Vec<_>>(), interrupt, finished)?;
+        let mut outcomes = outcomes.into_iter();
+        for curve in figures.iter_mut().flat_map(|(_, curves)| curves) {
+            let of_engine = |runs: &Vec<_>| outcomes.by_ref().take(runs.len()).collect();
+            curve.outcomes = curve.runs.each_ref().map(of_engine);
+        }
+        let figures = figures.par_iter().with_max_len(1);
+        let figures = figures.map(|(spec, curves)| Figure::new(spec, curves, interrupt));
+        figures.collect()
+    })
 }
 
 /// All files by their names: pictures and data of each figure, the claims as table, and everything in one text for a
@@ -281,7 +239,9 @@ pub fn files(figures: &[Figure], plan: &FigurePlan) -> Result<Vec<(String, Vec<u
     figures.par_iter().try_for_each(|figure| {
         let name = figure.name();
         let picture = Picture(figure.panels.clone());
-        press.put(&name, DATA, &figure.data)?;
+        press
+            .put(&name, DATA, &figure.data)
+            .map_err(ReportError::from)?;
         // The page of the repository shows one resolution.
         let mut forms = paper::pictures(plan);
         forms.retain(|(ending, _)| *ending != "@2x.png");

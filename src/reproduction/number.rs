@@ -1,7 +1,4 @@
-//! Numbers as they are written: few enough digits that neither another processor nor another iteration changes them; and the
-//! data behind a figure.
-
-use crate::report::table::{Cell, csv};
+//! Numbers as they are written: few enough digits that neither another processor nor another iteration changes them.
 
 /// Below this, in units in which results are of order 1, a value is rounding and stands as 0.
 const NOISE: f64 = 1e-9;
@@ -9,7 +6,7 @@ const NOISE: f64 = 1e-9;
 /// Differences below this depend on the tolerance of the half-space solver.
 const UNRESOLVED: f64 = 1e-6;
 
-/// A value to so many significant digits, in decimal notation where that is short.
+/// A value to this many significant digits, in decimal notation where that is short.
 pub fn significant(value: f64, digits: usize) -> String {
     if value.abs() < NOISE {
         return "0".to_owned();
@@ -40,48 +37,9 @@ pub fn difference(value: f64) -> String {
     }
 }
 
-/// The data behind a figure, as CSV: numbers to five significant digits, what is undefined empty.
-pub(super) struct Data {
-    columns: Vec<&'static str>,
-    rows: Vec<Vec<Cell>>,
-}
-
-impl Data {
-    /// Under these columns.
-    pub fn new(columns: &[&'static str]) -> Self {
-        Self {
-            columns: columns.to_vec(),
-            rows: Vec::new(),
-        }
-    }
-
-    /// Adds a row.
-    pub fn row(&mut self, cells: impl IntoIterator<Item = Cell>) {
-        let written = |cell: Cell| match cell {
-            Cell::Number(value) => significant(value, 5).into(),
-            cell => cell,
-        };
-        self.rows.push(cells.into_iter().map(written).collect());
-    }
-
-    /// Adds a row for each point, with these cells before it.
-    pub fn points<Y: Copy + Into<Cell>>(&mut self, before: &[Cell], points: &[(f64, Y)]) {
-        for (x, y) in points {
-            let point = [Cell::from(*x), (*y).into()];
-            self.row(before.iter().cloned().chain(point));
-        }
-    }
-
-    /// The text.
-    pub fn finish(self) -> Vec<u8> {
-        csv(&self.columns, self.rows)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::table::cells;
 
     #[test]
     fn five_digits_are_written_out_and_noise_is_nothing() {
@@ -95,9 +53,7 @@ mod tests {
             (3e-17, "0"),
             (0.0, "0"),
         ] {
-            let mut data = Data::new(&["x", "y"]);
-            data.row(cells![value, None::<f64>]);
-            assert_eq!(data.finish(), format!("x,y\n{text},\n").into_bytes());
+            assert_eq!(significant(value, 5), text);
         }
     }
 

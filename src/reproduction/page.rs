@@ -1,27 +1,18 @@
 //! index.html: the figures with their claims in one page, in the frame that all pages have.
 
 use maud::{Markup, PreEscaped, Render, html};
-use serde::Serialize;
 
-use super::claim::COLUMNS;
-use super::statement::Count;
-use super::wording::{self, EXPLANATION, FIGURE_13};
-use super::{Claim, Figure, ReproductionError, SCENARIOS, SWEEPS};
+use super::claim::{COLUMNS, rows};
+use super::readme::{EXPLANATION, disagreeing};
+use super::statement::counted;
+use super::{Figure, ReproductionError, SCENARIOS, SWEEPS};
 use crate::report::page::Pictures;
 use crate::report::page::frame::{Frame, Input};
 use crate::sweep::plan::resolved;
 
 const SCRIPT: &str = include_str!("page.js");
 
-/// What the script of the page knows.
-#[derive(Serialize)]
-struct Data<'a> {
-    kind: &'static str,
-    /// `claims.csv`.
-    csv: &'a str,
-}
-
-/// The page, once the figures have gone by.
+/// The page, once the pictures are drawn, with the text of `claims.csv`.
 pub(super) fn page(
     figures: &[Figure],
     pictures: &Pictures,
@@ -30,7 +21,7 @@ pub(super) fn page(
     let main = html! {
         section aria-labelledby="answer" class="answer" {
             h2 id="answer" { "What agrees with the paper" }
-            p class="peaks" { (Count::of(figures).text()) "." }
+            p class="peaks" { (counted(figures)) "." }
             (disagreements(figures))
             h3 { "Statement by statement" }
             section class="scroll" tabindex="0" aria-label="Statements, may be scrolled" { (contents(figures)) }
@@ -42,17 +33,12 @@ pub(super) fn page(
         }
         @for figure in figures { (section(figure, pictures)) }
     };
-    let names: Vec<(String, &str)> = SCENARIOS
-        .iter()
-        .chain(&SWEEPS)
+    let files = SCENARIOS.iter().chain(&SWEEPS);
+    let files: Vec<(String, &str)> = files
         .filter(|(name, _)| figures.iter().any(|f| name.starts_with(&f.name())))
         .map(|(name, text)| (format!("{name}.toml"), *text))
         .collect();
-    let inputs: String = names.iter().map(|(_, text)| *text).collect();
-    let data = Data {
-        kind: "reproduction",
-        csv: &String::from_utf8_lossy(claims),
-    };
+    let inputs: String = files.iter().map(|(_, text)| *text).collect();
     let frame = Frame {
         title: "The computed figures of Spinu 2018",
         asked: "Viscoelastic Contact Simulation under Harmonic Cyclic Load, Advances in Tribology 2018, 9432894: figure by \
@@ -61,7 +47,7 @@ pub(super) fn page(
         main,
         input: Input {
             hashes: vec![("exactly these inputs", resolved::hash(&inputs))],
-            files: names.iter().map(|(name, text)| (&name[..], *text)).collect(),
+            files: files.iter().map(|(name, text)| (&name[..], *text)).collect(),
             text: "The scenario and sweep files behind these figures, which are built into the program: \
                    <code>contact-dma reproduce</code> gives this page again. Each also runs by itself, with \
                    <code>contact-dma simulate FILE</code> where it has segments and <code>contact-dma sweep FILE</code> where \
@@ -69,7 +55,8 @@ pub(super) fn page(
         },
         script: &[SCRIPT],
     };
-    Ok(frame.page(&data)?)
+    let csv = String::from_utf8_lossy(claims);
+    Ok(frame.page(&serde_json::json!({ "kind": "reproduction", "csv": csv }))?)
 }
 
 fn controls() -> Markup {
@@ -94,20 +81,24 @@ fn controls() -> Markup {
 
 /// Nothing where everything agrees.
 fn disagreements(figures: &[Figure]) -> Markup {
-    let lines = wording::disagreeing(figures);
+    let lines = disagreeing(figures);
     html! {
         @if !lines.is_empty() {
             div class="problems" {
                 p { "What disagrees:" }
                 ul { @for line in &lines { li { (readable(line)) } } }
             }
-            @if figures.iter().any(|figure| figure.number == 13) { (paragraphs(FIGURE_13)) }
+            @for text in figures.iter().filter_map(|figure| figure.discussion.as_deref()) { (paragraphs(text)) }
         }
     }
 }
 
 /// What the paper states, figure by figure.
 fn contents(figures: &[Figure]) -> Markup {
+    let statements = figures.iter().flat_map(|figure| {
+        let statements = figure.statements.iter().enumerate();
+        statements.map(move |(place, statement)| (figure, place == 0, statement))
+    });
     html! {
         table class="claims" {
             thead {
@@ -118,20 +109,18 @@ fn contents(figures: &[Figure]) -> Markup {
                 }
             }
             tbody {
-                @for figure in figures {
-                    @for (place, statement) in figure.statements.iter().enumerate() {
-                        tr {
-                            th scope="row" {
-                                @if place == 0 {
-                                    a href={ "#" (figure.name()) } { "Figure " (figure.number) }
-                                } @else {
-                                    "Figure " (figure.number)
-                                }
+                @for (figure, is_first, statement) in statements {
+                    tr {
+                        th scope="row" {
+                            @if is_first {
+                                a href={ "#" (figure.name()) } { "Figure " (figure.number) }
+                            } @else {
+                                "Figure " (figure.number)
                             }
-                            td class="text wide" { (readable(&statement.paper)) }
-                            td class="text" { (if statement.is_number { "number" } else { "words" }) }
-                            td class="text" { (statement.verdict.name()) }
                         }
+                        td class="text wide" { (readable(&statement.paper)) }
+                        td class="text" { (if statement.is_number { "number" } else { "words" }) }
+                        td class="text" { (statement.verdict.name()) }
                     }
                 }
             }
@@ -140,8 +129,13 @@ fn contents(figures: &[Figure]) -> Markup {
 }
 
 fn section(figure: &Figure, pictures: &Pictures) -> Markup {
+    // Columns of words stand on the left.
+    let classes = COLUMNS.map(|(column, _)| match column {
+        "quantity" | "verdict" => Some("text"),
+        "the paper" | "note" => Some("text wide"),
+        _ => None,
+    });
     let (name, number) = (figure.name(), figure.number);
-    let above = std::iter::once(None).chain(figure.claims.iter().map(Some));
     html! {
         section aria-labelledby=(name) class="reproduced" {
             h2 id=(name) { "Figure " (number) }
@@ -152,37 +146,25 @@ fn section(figure: &Figure, pictures: &Pictures) -> Markup {
             section class="scroll" tabindex="0" aria-label={ "Numbers of figure " (number) ", may be scrolled" } {
                 table class="claims" {
                     thead {
-                        tr { @for column in COLUMNS { th scope="col" class=[kind(column)] { (column) } } }
+                        tr {
+                            @for ((column, _), class) in COLUMNS.iter().zip(classes) {
+                                th scope="col" class=[class] { (column) }
+                            }
+                        }
                     }
                     tbody {
-                        @for (claim, above) in figure.claims.iter().zip(above) { (row(claim, above)) }
+                        @for (claim, cells) in figure.claims.iter().zip(rows(&figure.claims)) {
+                            tr data-verdict=(claim.judged().name()) {
+                                th scope="row" { (readable(&cells[0])) }
+                                @for (cell, class) in cells.iter().zip(classes).skip(1) {
+                                    td class=[class] { (readable(cell)) }
+                                }
+                            }
+                        }
                     }
                 }
             }
         }
-    }
-}
-
-fn row(claim: &Claim, above: Option<&Claim>) -> Markup {
-    let cells = claim.cells_below(above);
-    html! {
-        tr data-verdict=(claim.judged().name()) {
-            @for (column, cell) in COLUMNS.iter().zip(&cells) {
-                @match *column {
-                    "quantity" => th scope="row" { (readable(cell)) },
-                    column => td class=[kind(column)] { (readable(cell)) },
-                }
-            }
-        }
-    }
-}
-
-/// Columns of words stand on the left.
-fn kind(column: &str) -> Option<&'static str> {
-    match column {
-        "quantity" | "verdict" => Some("text"),
-        "the paper" | "note" => Some("text wide"),
-        _ => None,
     }
 }
 
@@ -195,23 +177,13 @@ fn paragraphs(text: &str) -> Markup {
     html! { @for text in text.trim().split("\n\n") { p { (marked(text)) } } }
 }
 
-/// Escaped, and an index such as that of a_H set as one.
+/// Escaped, and the indices of quantities set as such.
 fn readable(text: &str) -> Markup {
-    let mut html = String::with_capacity(text.len());
     let escaped = text.render().into_string();
-    let mut parts = escaped.split('_');
-    html.push_str(parts.next().unwrap_or_default());
-    for part in parts {
-        let letters = part.chars().take_while(|c| c.is_alphabetic()).count();
-        match part.chars().next() {
-            Some(index) if letters == 1 && index.is_ascii_uppercase() => {
-                let rest = part.strip_prefix(index).unwrap_or_default();
-                html.push_str(&format!("<sub>{index}</sub>{rest}"));
-            }
-            _ => html.push_str(&format!("_{part}")),
-        }
-    }
-    PreEscaped(html)
+    let set = |text: String, index: &str| {
+        text.replace(&format!("_{index}"), &format!("<sub>{index}</sub>"))
+    };
+    PreEscaped(["H", "K", "A"].into_iter().fold(escaped, set))
 }
 
 /// What stands between each pair of `mark` within an element of that name.

@@ -1,86 +1,80 @@
 //! README.md: the figures with their claims, readable where the repository is.
 
-use std::fmt::Write;
+use super::claim::{COLUMNS, rows};
+use super::statement::counted;
+use super::{Figure, Judged, Verdict};
 
-use super::Figure;
-use super::claim::COLUMNS;
-use super::statement::Count;
-use super::wording::{self, EXPLANATION, FIGURE_13};
+const OPENING: &str = include_str!("opening.md");
 
-const OPENING: &str = "\
-# The computed figures of Spinu 2018
+/// How to read the numbers, with `**` and `*`.
+pub(super) const EXPLANATION: &str = include_str!("explanation.md");
 
-S. Spinu, *Viscoelastic Contact Simulation under Harmonic Cyclic Load*, Advances in Tribology 2018, 9432894
-([doi:10.1155/2018/9432894](https://doi.org/10.1155/2018/9432894)), figure by figure. This folder is written by
-
-```sh
-contact-dma reproduce
-```
-
-from the scenario and sweep files in `sweeps/spinu-2018/`, each of which also runs by itself (`contact-dma simulate FILE`,
-`contact-dma sweep FILE`). A test holds every byte of it to what the command writes. Figures 2 and 3 of the paper are
-flowcharts.
-
-";
+/// A sentence for each statement of the paper that disagrees.
+pub(super) fn disagreeing(figures: &[Figure]) -> Vec<String> {
+    let statements = figures.iter().flat_map(|figure| {
+        let statements = figure.statements.iter();
+        statements.map(move |statement| (figure.number, statement))
+    });
+    statements
+        .filter(|(_, statement)| statement.verdict == Verdict::Disagrees)
+        .map(
+            |(
+                number,
+                Judged {
+                    paper,
+                    computed,
+                    note,
+                    ..
+                },
+            )| {
+                let note = match note.is_empty() {
+                    true => String::new(),
+                    false => format!(" ({note})"),
+                };
+                format!("Figure {number}: \u{201c}{paper}\u{201d} Computed: {computed}{note}.")
+            },
+        )
+        .collect()
+}
 
 /// The page: opening, explanation, what disagrees, then figure by figure.
 pub(super) fn text(figures: &[Figure]) -> String {
-    let mut text = format!("{OPENING}{EXPLANATION}");
-    // Writing to a String cannot fail.
-    let _ = writeln!(
-        text,
-        "\n**{}.** All values: [claims.csv](claims.csv); the statements, and how each is held against the values: \
-         [claims.toml](../../sweeps/spinu-2018/claims.toml).",
-        Count::of(figures).text()
+    let mut text = format!(
+        "{OPENING}{EXPLANATION}\n**{}.** All values: [claims.csv](claims.csv); the statements, and how each is held against the \
+         values: [figures.toml](../../sweeps/spinu-2018/figures.toml).\n",
+        counted(figures)
     );
-    disagreements(&mut text, figures);
-    for figure in figures {
-        section(&mut text, figure);
+    let lines = disagreeing(figures);
+    if !lines.is_empty() {
+        text.push_str("\n## What disagrees\n\n");
+        text.extend(lines.iter().map(|line| format!("- {line}\n")));
+        let discussions = figures
+            .iter()
+            .filter_map(|figure| figure.discussion.as_ref());
+        text.extend(discussions.map(|discussion| format!("\n{discussion}")));
     }
+    text.extend(figures.iter().map(section));
     text
 }
 
-fn disagreements(text: &mut String, figures: &[Figure]) {
-    let disagreeing = wording::disagreeing(figures);
-    if disagreeing.is_empty() {
-        return;
-    }
-    text.push_str("\n## What disagrees\n\n");
-    for line in disagreeing {
-        let _ = writeln!(text, "- {line}");
-    }
-    if figures.iter().any(|figure| figure.number == 13) {
-        let _ = write!(text, "\n{FIGURE_13}");
-    }
-}
-
-fn section(text: &mut String, figure: &Figure) {
+fn section(figure: &Figure) -> String {
+    let Figure {
+        number, caption, ..
+    } = figure;
     let name = figure.name();
-    let _ = writeln!(
-        text,
-        "\n## Figure {}\n\n![Figure {}](figures/{name}.png)\n\n{} Data: [{name}.csv](figures/{name}.csv); [SVG](figures/{name}.svg).\n",
-        figure.number, figure.number, figure.caption
-    );
-    text.push_str("| the paper states | number | verdict |\n|---|---|---|\n");
-    for statement in &figure.statements {
+    let row = |cells: &[&str]| format!("| {} |\n", cells.join(" | "));
+    let statements = figure.statements.iter().map(|statement| {
         let kind = if statement.is_number { "yes" } else { "" };
-        let _ = writeln!(
-            text,
-            "| {} | {kind} | {} |",
-            statement.paper,
-            statement.verdict.name()
-        );
-    }
-    text.push('\n');
-    let _ = writeln!(
-        text,
-        "| {} |\n|{}",
-        COLUMNS.join(" | "),
-        "---|".repeat(COLUMNS.len())
-    );
-    let mut above = None;
-    for claim in &figure.claims {
-        let _ = writeln!(text, "| {} |", claim.cells_below(above).join(" | "));
-        above = Some(claim);
-    }
+        row(&[&statement.paper, kind, statement.verdict.name()])
+    });
+    let claims = rows(&figure.claims).map(|cells| row(&cells.each_ref().map(|cell| &cell[..])));
+    format!(
+        "\n## Figure {number}\n\n![Figure {number}](figures/{name}.png)\n\n{caption} Data: [{name}.csv](figures/{name}.csv); \
+         [SVG](figures/{name}.svg).\n\n{}|---|---|---|\n{}\n{}|{}\n{}",
+        row(&["the paper states", "number", "verdict"]),
+        statements.collect::<String>(),
+        row(&COLUMNS.map(|(column, _)| column)),
+        "---|".repeat(COLUMNS.len()),
+        claims.collect::<String>()
+    )
 }

@@ -1,13 +1,11 @@
-//! What the paper states, as data (`sweeps/spinu-2018/claims.toml`), and whether it agrees with what is computed: a verdict follows
-//! from the values, and one trend over many values counts once.
+//! What the paper states of a figure (`figures.toml`), and whether it agrees with what is computed: a verdict follows from the values,
+//! and one trend over many values counts once.
 
 use serde::Deserialize;
 
 use super::claim::{Claim, Verdict};
-use super::{Figure, ReproductionError, Result};
-
-/// The file, in the program.
-const FILE: &str = include_str!("../../sweeps/spinu-2018/claims.toml");
+use super::run::unfit;
+use super::{Figure, Result};
 
 /// Times further from an extremum of the load than this (in the time of the figure) are other times.
 const OTHER_TIME: f64 = 0.05;
@@ -15,50 +13,37 @@ const OTHER_TIME: f64 = 0.05;
 /// What stays changes by no more than this part of itself.
 const STAYS: f64 = 1e-6;
 
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct File {
-    claim: Vec<Statement>,
-}
-
 /// One statement of the paper.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Statement {
-    figure: u8,
+pub(super) struct Statement {
     /// Beginnings of the names of the values that it is about.
     rows: Vec<String>,
     /// The words, or the place of the number.
     paper: String,
-    is: Option<f64>,
-    tolerance: Option<f64>,
-    at_most: Option<f64>,
-    at_least: Option<f64>,
-    qualitative: Option<Trend>,
-    #[serde(default)]
-    times: Vec<f64>,
+    holds: Rule,
 }
 
-/// What is stated in words.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+/// When a statement holds, of all its rows together.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-enum Trend {
-    #[serde(rename = "as the theory")]
+enum Rule {
+    /// The number, and half a unit of its last digit.
+    Is(f64, f64),
+    AtMost(f64),
+    AtLeast(f64),
     AsTheTheory,
     Falls,
     Rises,
-    #[serde(rename = "never falls")]
     NeverFalls,
     Stays,
     Positive,
-    #[serde(rename = "other times")]
-    OtherTimes,
+    OtherTimes(Vec<f64>),
 }
 
 /// A statement that has been held against what is computed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Judged {
-    pub figure: u8,
     pub paper: String,
     /// The values that it is about, as printed.
     pub computed: String,
@@ -69,203 +54,143 @@ pub struct Judged {
     pub note: String,
 }
 
-/// How many statements there are: numbers and words apart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Count {
-    /// Agree, disagree, and cannot be compared.
-    pub numbers: [usize; 3],
-    pub words: [usize; 3],
-    /// Values that are computed and not stated in the paper.
-    pub not_stated: usize,
-}
-
-impl Count {
-    /// Of these figures.
-    pub fn of<'a>(figures: impl IntoIterator<Item = &'a Figure>) -> Self {
-        let mut count = Self::default();
-        for figure in figures {
-            for statement in &figure.statements {
-                let place = match statement.verdict {
-                    Verdict::Agrees => 0,
-                    Verdict::Disagrees => 1,
-                    Verdict::Undefined | Verdict::NotStated => 2,
-                };
-                match statement.is_number {
-                    true => count.numbers[place] += 1,
-                    false => count.words[place] += 1,
-                }
-            }
-            let not_stated = |claim: &&Claim| claim.judged() == Verdict::NotStated;
-            count.not_stated += figure.claims.iter().filter(not_stated).count();
+/// How many statements there are in these figures, numbers and words apart, and how many values besides: `14 numbers of the paper
+/// (9 agree, 5 disagree), 18 statements in words (18 agree); 40 values more are computed ...`.
+pub fn counted(figures: &[Figure]) -> String {
+    let tally = |is_number: bool| {
+        let statements = figures.iter().flat_map(|figure| &figure.statements);
+        let of_kind = statements.filter(|statement| statement.is_number == is_number);
+        let verdicts: Vec<Verdict> = of_kind.map(|statement| statement.verdict).collect();
+        let named = [
+            (Verdict::Agrees, "agree"),
+            (Verdict::Disagrees, "disagree"),
+            (Verdict::Undefined, "are undefined"),
+        ];
+        let named = named.map(|(verdict, name)| {
+            let count = verdicts.iter().filter(|v| **v == verdict).count();
+            (count > 0).then(|| format!("{count} {name}"))
+        });
+        let named: Vec<String> = named.into_iter().flatten().collect();
+        match named.is_empty() {
+            true => (0, String::new()),
+            false => (verdicts.len(), format!(" ({})", named.join(", "))),
         }
-        count
-    }
-
-    /// `14 numbers (9 agree, 5 disagree), 18 statements in words (18 agree)`, and what is not stated.
-    pub fn text(&self) -> String {
-        let verdicts = |counts: [usize; 3]| {
-            let named = counts
-                .into_iter()
-                .zip(["agree", "disagree", "are undefined"]);
-            let named = named.filter(|(count, _)| *count > 0);
-            let named: Vec<String> = named
-                .map(|(count, name)| format!("{count} {name}"))
-                .collect();
-            match named.is_empty() {
-                true => String::new(),
-                false => format!(" ({})", named.join(", ")),
-            }
-        };
-        format!(
-            "{} numbers of the paper{}, {} statements in words{}; {} values more are computed that are not stated there",
-            self.numbers.iter().sum::<usize>(),
-            verdicts(self.numbers),
-            self.words.iter().sum::<usize>(),
-            verdicts(self.words),
-            self.not_stated
-        )
-    }
-}
-
-/// Holds what the paper states of these figures against their values; both are told the verdict.
-///
-/// # Errors
-/// [`ReproductionError::Unfit`] where the file says something that cannot be held against values.
-pub(super) fn judge(figures: &mut [Figure]) -> Result<()> {
-    let statements = statements()?;
-    for figure in figures {
-        let of_figure = statements.iter().filter(|s| s.figure == figure.number);
-        for statement in of_figure {
-            let judged = statement.judged(&mut figure.claims)?;
-            figure.statements.push(judged);
-        }
-    }
-    Ok(())
-}
-
-fn statements() -> Result<Vec<Statement>> {
-    let file: Result<File, _> = toml::from_str(FILE);
-    file.map(|file| file.claim)
-        .map_err(|error| ReproductionError::Unfit(format!("claims.toml: {error}")))
+    };
+    let ((numbers, of_numbers), (words, of_words)) = (tally(true), tally(false));
+    let claims = figures.iter().flat_map(|figure| &figure.claims);
+    let more = claims
+        .filter(|claim| claim.judged() == Verdict::NotStated)
+        .count();
+    format!(
+        "{numbers} numbers of the paper{of_numbers}, {words} statements in words{of_words}; {more} values more are computed that are \
+         not stated there"
+    )
 }
 
 impl Statement {
-    fn judged(&self, claims: &mut [Claim]) -> Result<Judged> {
+    /// Holds it against the values that it is about, which get the verdict.
+    ///
+    /// # Errors
+    /// [`ReproductionError::Unfit`] where it says something that cannot be held against values.
+    pub fn judged(&self, claims: &mut [Claim]) -> Result<Judged> {
         let is_meant = |claim: &Claim| self.rows.iter().any(|r| claim.quantity.starts_with(r));
         let meant: Vec<&Claim> = claims.iter().filter(|claim| is_meant(claim)).collect();
         if meant.is_empty() {
             let rows = self.rows.join(", ");
-            return Err(self.unfit(&format!("no value is named {rows}")));
+            return Err(unfit(format!(
+                "figures.toml, {}: no value is named {rows}",
+                self.paper
+            )));
         }
-        let verdict = self.verdict(&meant)?;
-        let values = meant.iter().map(|claim| claim.texts().exact);
-        let values: Vec<String> = values.filter(|text| !text.is_empty()).collect();
-        let mut notes: Vec<&str> = Vec::new();
-        for claim in &meant {
-            if !claim.note.is_empty() && !notes.contains(&claim.note.as_str()) {
-                notes.push(&claim.note);
-            }
-        }
+        let verdict = self.verdict(&meant);
+        let each = |text: &dyn Fn(&Claim) -> String| {
+            let mut texts: Vec<String> = meant.iter().map(|claim| text(claim)).collect();
+            texts.retain(|text| !text.is_empty());
+            texts
+        };
+        let values = each(&|claim| claim.texts()[0].clone());
+        let mut notes = each(&|claim| claim.note.clone());
+        notes.dedup();
+        let (near, count) = (accurate(&meant), meant.len());
         let judged = Judged {
-            figure: self.figure,
             paper: self.paper.clone(),
-            computed: match (self.qualitative, values.is_empty()) {
-                (Some(Trend::AsTheTheory), _) | (_, true) => {
-                    format!(
-                        "{} of {} values within the accuracy asked for",
-                        accurate(&meant),
-                        meant.len()
-                    )
-                }
-                _ => format!("{}: {}", self.rows.join("; "), values.join(", ")),
+            computed: match self.holds == Rule::AsTheTheory || values.is_empty() {
+                true => format!("{near} of {count} values within the accuracy asked for"),
+                false => format!("{}: {}", self.rows.join("; "), values.join(", ")),
             },
-            is_number: self.qualitative.is_none(),
+            is_number: matches!(
+                self.holds,
+                Rule::Is(..) | Rule::AtMost(_) | Rule::AtLeast(_)
+            ),
             verdict,
             note: notes.join("; "),
         };
         for claim in claims.iter_mut().filter(|claim| is_meant(claim)) {
-            claim.stated.add(&self.paper, verdict);
+            claim.add(&self.paper, verdict);
         }
         Ok(judged)
     }
 
-    fn unfit(&self, what: &str) -> ReproductionError {
-        ReproductionError::Unfit(format!("claims.toml, figure {}: {what}", self.figure))
-    }
-
-    fn verdict(&self, claims: &[&Claim]) -> Result<Verdict> {
-        let numbers: Option<Vec<f64>> = claims.iter().map(|claim| claim.values.exact).collect();
+    fn verdict(&self, claims: &[&Claim]) -> Verdict {
+        let numbers: Option<Vec<f64>> = claims.iter().map(|claim| claim.values[0]).collect();
         let defined = claims.iter().all(|claim| !claim.is_undefined());
         let Some(values) = numbers.filter(|_| defined) else {
-            return Ok(Verdict::Undefined);
+            return Verdict::Undefined;
         };
-        let holds = match (
-            self.is.zip(self.tolerance),
-            self.at_most,
-            self.at_least,
-            self.qualitative,
-        ) {
-            (Some((is, within)), None, None, None) => {
-                values.iter().all(|v| (v - is).abs() <= within)
-            }
-            (None, Some(most), None, None) => values.iter().all(|v| *v <= most),
-            (None, None, Some(least), None) => values.iter().all(|v| *v >= least),
-            (None, None, None, Some(trend)) => self.follows(trend, &values, claims),
-            _ => {
-                let needed = "give `is` with `tolerance`, `at_most`, `at_least` or `qualitative`, one of them";
-                return Err(self.unfit(needed));
+        let all = |rule: &dyn Fn(f64) -> bool| values.iter().all(|value| rule(*value));
+        let step = |rule: fn(f64, f64) -> bool| {
+            values.len() > 1 && values.windows(2).all(|pair| rule(pair[0], pair[1]))
+        };
+        let holds = match &self.holds {
+            Rule::Is(number, within) => all(&|v| (v - number).abs() <= *within),
+            Rule::AtMost(most) => all(&|v| v <= *most),
+            Rule::AtLeast(least) => all(&|v| v >= *least),
+            Rule::AsTheTheory => accurate(claims) == claims.len(),
+            Rule::Falls => step(|a, b| b < a),
+            Rule::Rises => step(|a, b| b > a),
+            Rule::NeverFalls => step(|a, b| b >= a),
+            Rule::Stays => all(&|v| (v - values[0]).abs() <= STAYS * values[0].abs()),
+            Rule::Positive => all(&|v| v > 0.0),
+            Rule::OtherTimes(times) => {
+                let mut pairs = values.iter().zip(times);
+                times.len() == values.len() && pairs.all(|(v, t)| (v - t).abs() > OTHER_TIME)
             }
         };
-        Ok(if holds {
-            Verdict::Agrees
-        } else {
-            Verdict::Disagrees
-        })
-    }
-
-    fn follows(&self, trend: Trend, values: &[f64], claims: &[&Claim]) -> bool {
-        let step = |rule: fn(f64, f64) -> bool| values.windows(2).all(|w| rule(w[0], w[1]));
-        match trend {
-            Trend::AsTheTheory => accurate(claims) == claims.len(),
-            Trend::Falls => values.len() > 1 && step(|a, b| b < a),
-            Trend::Rises => values.len() > 1 && step(|a, b| b > a),
-            Trend::NeverFalls => values.len() > 1 && step(|a, b| b >= a),
-            Trend::Stays => values
-                .iter()
-                .all(|v| (v - values[0]).abs() <= STAYS * values[0].abs()),
-            Trend::Positive => values.iter().all(|v| *v > 0.0),
-            Trend::OtherTimes => {
-                self.times.len() == values.len()
-                    && values
-                        .iter()
-                        .zip(&self.times)
-                        .all(|(v, t)| (v - t).abs() > OTHER_TIME)
-            }
+        match holds {
+            true => Verdict::Agrees,
+            false => Verdict::Disagrees,
         }
     }
 }
 
 fn accurate(claims: &[&Claim]) -> usize {
+    let claims = claims.iter();
     claims
-        .iter()
         .filter(|claim| claim.is_accurate() == Some(true))
         .count()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{ByEngine, Measure, Source};
+    use super::super::claim::Source;
     use super::*;
 
     fn claim(quantity: &str, value: Option<f64>) -> Claim {
-        let values = ByEngine::of(value, [value, None]);
-        let measure = Measure::absolute("of a_H", 1e-3, 1e-3);
-        Claim::new(quantity, Source::Refined, values, measure)
+        Claim {
+            quantity: quantity.to_owned(),
+            source: Source::Refined,
+            values: [value, value, None],
+            unit: Some("of a_H".to_owned()),
+            tolerances: [1e-3; 2],
+            paper: String::new(),
+            stated: Verdict::NotStated,
+            note: String::new(),
+        }
     }
 
     fn verdict(text: &str, values: &[Option<f64>]) -> Verdict {
         let statement: Statement = toml::from_str(&format!(
-            "figure = 10\nrows = [\"radius\"]\npaper = \"\"\n{text}"
+            "rows = [\"radius\"]\npaper = \"\"\nholds = {text}"
         ))
         .unwrap();
         let mut claims: Vec<Claim> = values.iter().map(|v| claim("radius", *v)).collect();
@@ -282,29 +207,21 @@ mod tests {
         let falling = [Some(3.0), Some(2.0), Some(1.0)];
         let level = [Some(2.0), Some(2.0)];
         for (text, values, expected) in [
-            ("is = 2.0\ntolerance = 0.05", &level[..], Agrees),
-            ("is = 2.06\ntolerance = 0.05", &level, Disagrees),
-            ("at_most = 2.5", &falling, Disagrees),
-            ("at_least = 1.0", &falling, Agrees),
-            ("qualitative = \"falls\"", &falling, Agrees),
-            ("qualitative = \"rises\"", &falling, Disagrees),
-            ("qualitative = \"falls\"", &level, Disagrees),
-            ("qualitative = \"never falls\"", &level, Agrees),
-            ("qualitative = \"stays\"", &level, Agrees),
-            ("qualitative = \"stays\"", &falling, Disagrees),
-            ("qualitative = \"positive\"", &falling, Agrees),
-            (
-                "qualitative = \"other times\"\ntimes = [2.0, 2.1]",
-                &level,
-                Disagrees,
-            ),
-            (
-                "qualitative = \"other times\"\ntimes = [1.9, 2.1]",
-                &level,
-                Agrees,
-            ),
-            ("qualitative = \"as the theory\"", &level, Agrees),
-            ("qualitative = \"falls\"", &[Some(1.0), None], Undefined),
+            ("{ is = [2.0, 0.05] }", &level[..], Agrees),
+            ("{ is = [2.06, 0.05] }", &level, Disagrees),
+            ("{ at-most = 2.5 }", &falling, Disagrees),
+            ("{ at-least = 1.0 }", &falling, Agrees),
+            ("\"falls\"", &falling, Agrees),
+            ("\"rises\"", &falling, Disagrees),
+            ("\"falls\"", &level, Disagrees),
+            ("\"never-falls\"", &level, Agrees),
+            ("\"stays\"", &level, Agrees),
+            ("\"stays\"", &falling, Disagrees),
+            ("\"positive\"", &falling, Agrees),
+            ("{ other-times = [2.0, 2.1] }", &level, Disagrees),
+            ("{ other-times = [1.9, 2.1] }", &level, Agrees),
+            ("\"as-the-theory\"", &level, Agrees),
+            ("\"falls\"", &[Some(1.0), None], Undefined),
         ] {
             assert_eq!(verdict(text, values), expected, "{text}");
         }
@@ -312,20 +229,21 @@ mod tests {
 
     #[test]
     fn a_statement_without_a_value_or_with_two_rules_is_refused() {
-        let of =
-            |text: &str| toml::from_str::<Statement>(&format!("figure = 10\npaper = \"\"\n{text}"));
-        let missing = of("rows = [\"depth\"]\nis = 1.0\ntolerance = 1.0").unwrap();
-        let mut claims = [claim("radius", Some(1.0))];
-        assert!(
-            missing
-                .judged(&mut claims)
-                .unwrap_err()
-                .to_string()
-                .contains("depth")
-        );
-        let both = of("rows = [\"radius\"]\nat_most = 1.0\nat_least = 1.0").unwrap();
-        assert!(both.judged(&mut claims).is_err());
-        assert!(of("rows = []\nqualitative = \"wobbles\"").is_err());
+        let of = |text: &str| toml::from_str::<Statement>(&format!("paper = \"\"\n{text}"));
+        let missing = of("rows = [\"depth\"]\nholds = { is = [1.0, 1.0] }").unwrap();
+        let refused = missing.judged(&mut [claim("radius", Some(1.0))]);
+        assert!(refused.unwrap_err().to_string().contains("depth"));
+        for wrong in [
+            "{ at-most = 1.0, at-least = 1.0 }",
+            "{ is = [1.0] }",
+            "\"wobbles\"",
+        ] {
+            assert!(
+                of(&format!("rows = [\"radius\"]\nholds = {wrong}")).is_err(),
+                "{wrong}"
+            );
+        }
+        assert!(of("rows = [\"radius\"]").is_err());
     }
 
     #[test]
@@ -333,6 +251,7 @@ mod tests {
         let mut figure = Figure {
             number: 10,
             caption: String::new(),
+            discussion: None,
             panels: Vec::new(),
             data: Vec::new(),
             claims: [Some(2.0), Some(1.0)].map(|v| claim("radius", v)).to_vec(),
@@ -341,31 +260,25 @@ mod tests {
         figure.claims.push(claim("depth", None));
         figure.claims.push(claim("another", Some(7.0)));
         for text in [
-            "rows = [\"radius\"]\nqualitative = \"falls\"",
-            "rows = [\"radius\"]\nat_most = 1.5",
-            "rows = [\"depth\"]\nat_most = 1.5",
+            "rows = [\"radius\"]\nholds = \"falls\"",
+            "rows = [\"radius\"]\nholds = { at-most = 1.5 }",
+            "rows = [\"depth\"]\nholds = { at-most = 1.5 }",
         ] {
-            let text = format!("figure = 10\npaper = \"p\"\n{text}");
+            let text = format!("paper = \"p\"\n{text}");
             let statement: Statement = toml::from_str(&text).unwrap();
             let judged = statement.judged(&mut figure.claims).unwrap();
             figure.statements.push(judged);
         }
         // One that disagrees is heard.
         assert_eq!(figure.claims[0].judged(), Verdict::Disagrees);
-        let count = Count::of([&figure]);
-        assert_eq!((count.numbers, count.words), ([0, 1, 1], [1, 0, 0]));
         assert_eq!(
-            count.text(),
+            counted(&[figure]),
             "2 numbers of the paper (1 disagree, 1 are undefined), 1 statements in words (1 agree); 1 values more are computed that \
              are not stated there"
         );
-    }
-
-    #[test]
-    fn the_file_can_be_read_and_states_something_of_every_figure() {
-        let statements = statements().unwrap();
-        for figure in super::super::FIGURES {
-            assert!(statements.iter().any(|s| s.figure == figure), "{figure}");
-        }
+        assert_eq!(
+            counted(&[]),
+            "0 numbers of the paper, 0 statements in words; 0 values more are computed that are not stated there"
+        );
     }
 }

@@ -17,13 +17,13 @@ static MADE: LazyLock<Place> = LazyLock::new(|| {
 /// Those that are computed.
 const FIGURES: [&str; 11] = ["1", "4", "5", "6", "7", "8", "9", "10", "11", "12", "13"];
 
-/// The files that the figures are computed from, without what the paper states.
+/// The files that the figures are computed from, without the one that says what they show.
 fn behind_figures() -> Vec<PathBuf> {
     let mut files = below(
         &Path::new(env!("CARGO_MANIFEST_DIR")).join("sweeps/spinu-2018"),
         "",
     );
-    files.retain(|path| !path.ends_with("claims.toml"));
+    files.retain(|path| !path.ends_with("figures.toml"));
     files
 }
 
