@@ -34,7 +34,7 @@ pub(super) enum By {
     Cells,
 }
 
-/// One thing exactly (in closed form, or refined), by the axisymmetric engine and by the half-space engine: in the order of [`By`].
+/// One thing exactly (in closed form, or refined), by the axisymmetric engine and by the half-space engine: in the order of `By`.
 pub type ByEngine<T> = [T; 3];
 
 impl By {
