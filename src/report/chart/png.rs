@@ -35,13 +35,21 @@ impl Drawing {
     }
 
     fn png(&self, scale: f64, pixels_per_metre: Option<u32>) -> Result<Vec<u8>, ChartError> {
-        let picture = self.pixels(scale)?;
-        self.encode(picture, pixels_per_metre)
+        let (width, height) = self.size_in_pixels(scale)?;
+        let is_large = u64::from(width) * u64::from(height) > MANY_PIXELS;
+        // Until it is encoded, which takes as much memory again.
+        let _alone = is_large.then(|| ONE_LARGE.lock().unwrap_or_else(PoisonError::into_inner));
+        let refused = || ChartError::PixelScale {
+            scale,
+            reason: NO_PICTURE,
+        };
+        let pixmap = Pixmap::new(width, height).ok_or_else(refused)?;
+        self.encode(self.painted(pixmap), pixels_per_metre)
             .map_err(|error| ChartError::internal("write the PNG of", error))
     }
 
-    /// Every shape in pixels, on white.
-    fn pixels(&self, scale: f64) -> Result<Pixmap, ChartError> {
+    /// Width and height.
+    fn size_in_pixels(&self, scale: f64) -> Result<(u32, u32), ChartError> {
         let refused = |reason| ChartError::PixelScale { scale, reason };
         if !(scale.is_finite() && scale > 0.0) {
             return Err(refused("give a finite number above zero, such as 1 or 2"));
@@ -49,13 +57,18 @@ impl Drawing {
         let extent = self.extent();
         let sides = [extent.width_mm, extent.height_mm];
         let [width, height] = sides.map(|mm| (mm * PIXELS_PER_MM * scale).round());
-        let is_large = width * height > MANY_PIXELS as f64;
-        let _alone = is_large.then(|| ONE_LARGE.lock().unwrap_or_else(PoisonError::into_inner));
-        let is_fine = width.max(height) <= LARGEST_PIXELS;
-        let pixmap = is_fine.then(|| Pixmap::new(width as u32, height as u32));
-        let mut pixmap = pixmap.flatten().ok_or(refused(NO_PICTURE))?;
+        match width.max(height) <= LARGEST_PIXELS {
+            true => Ok((width as u32, height as u32)),
+            false => Err(refused(NO_PICTURE)),
+        }
+    }
+
+    /// Every shape in pixels, on white.
+    fn painted(&self, mut pixmap: Pixmap) -> Pixmap {
         pixmap.fill(tiny_skia::Color::WHITE);
         // The picture fills its whole pixels even where the scale does not give a whole number.
+        let extent = self.extent();
+        let (width, height) = (f64::from(pixmap.width()), f64::from(pixmap.height()));
         let stretch = Transform::from_scale(
             (width * extent.px_mm / extent.width_mm) as f32,
             (height * extent.px_mm / extent.height_mm) as f32,
@@ -63,8 +76,9 @@ impl Drawing {
         for shape in &self.shapes {
             paint(shape, stretch, &mut pixmap);
         }
-        Ok(pixmap)
+        pixmap
     }
+
     /// The pixels as PNG without transparency: the picture stands on white. Fast compression takes a tenth of the time of the
     /// thorough one, which used to be most of the time of a whole sweep.
     fn encode(
@@ -195,7 +209,8 @@ mod tests {
     #[test]
     fn svg_and_png_show_the_same_picture() {
         let drawing = everything().title("ΔW_A against a_{T}ω").draw().unwrap();
-        let own = drawing.pixels(2.0).unwrap();
+        let (width, height) = drawing.size_in_pixels(2.0).unwrap();
+        let own = drawing.painted(Pixmap::new(width, height).unwrap());
         for (svg, mean, ink) in [
             (drawing.to_svg(), 0.05, 0.002),
             (drawing.to_svg_with_text(), 0.2, 0.01),
