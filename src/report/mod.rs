@@ -24,7 +24,7 @@
 //! let setup = Setup::new(sweep.into_plan())?;
 //! let store = Store::open(folder, &resolved_text(setup.plan()), false)?;
 //! report::write_sweep(&store, setup.plan(), &outcome)?;
-//! assert!(folder.join("sweep.csv").exists() && folder.join("energy-loss.svg").exists());
+//! assert!(folder.join("sweep.csv").exists() && folder.join("figures/energy-loss.svg").exists());
 //! # Ok(())
 //! # }
 //! ```
