@@ -41,6 +41,13 @@ pub struct PaperSize {
     pub px_m: f64,
 }
 
+impl PaperSize {
+    /// The size of its text (pt).
+    pub fn text_pt(&self) -> f64 {
+        self.px_m * TEXT_PX / POINT_M
+    }
+}
+
 /// The size on paper, where any of it is asked for.
 pub fn paper_size(plan: &FigurePlan) -> Option<PaperSize> {
     if plan.width_m.is_none() && plan.height_m.is_none() && plan.font_size_pt.is_none() {

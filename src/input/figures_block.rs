@@ -33,7 +33,7 @@ const fn of_keys(keys: List) -> Rows {
 }
 
 /// Less room than this (in px of the drawing, whose text is 16 px) is no figure; more pixels than this no computer shows.
-const LEAST_WIDTH_PX: f64 = 320.0;
+const LEAST_WIDTH_PX: f64 = 225.0;
 const LEAST_HEIGHT_PX: f64 = 240.0;
 const MOST_PIXELS: f64 = 16_000.0;
 

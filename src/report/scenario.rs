@@ -56,11 +56,20 @@ pub fn write_tables(
 }
 
 /// The figures but for the maps of fields, and what was left out and why.
-pub fn lines(History { outcome, profiles }: &History, units: &Units) -> (Vec<Figure>, Vec<String>) {
+pub fn lines(
+    plan: &ScenarioPlan,
+    History { outcome, profiles }: &History,
+    units: &Units,
+) -> (Vec<Figure>, Vec<String>) {
     let (mut figures, mut left_out) = (Vec::new(), Vec::new());
-    match figure::history::figure(outcome, units) {
-        Ok(figure) => figures.push(figure),
-        Err(why) => left_out.push(why.to_owned()),
+    for drawn in [
+        figure::history::figure(outcome, units),
+        figure::history::load_approach(plan, outcome, units),
+    ] {
+        match drawn {
+            Ok(figure) => figures.push(figure),
+            Err(why) => left_out.push(why.to_owned()),
+        }
     }
     figures.extend(figure::cycle_losses::figure(outcome, units));
     let (profiles, not_drawn) = figure::profiles::figure(profiles, units);
@@ -82,9 +91,11 @@ fn figures(
         write: &|place, bytes| store.write(place, bytes),
         pictures,
     };
-    let (figures, mut left_out) = lines(history, &units);
+    let (figures, mut left_out) = lines(plan, history, &units);
     press.figures(&figures, &setting)?;
-    let maps = figure::pressure_map::write(&outcome.fields, &press, (&units, &setting))?;
-    left_out.extend(maps);
+    match figure::pressure_map::figures(&outcome.fields, &units) {
+        Ok(mut maps) => maps.try_for_each(|map| press.figures(&[map], &setting))?,
+        Err(why) => left_out.push(why.to_owned()),
+    }
     Ok(left_out)
 }

@@ -11,14 +11,19 @@ use contact_dma::simulation::scenario;
 use contact_dma::sweep::plan::resolved::identity;
 use toml::Value;
 
-fn root() -> &'static Path {
+pub fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Whether files that tests hold to what they should be are written anew.
+pub fn is_renewed() -> bool {
+    std::env::var_os("RENEW").is_some()
 }
 
 /// Holds a file to what it should be, or writes that.
 pub fn assert_current(file: impl AsRef<Path>, expected: &str) {
     let path = root().join(&file);
-    if std::env::var_os("RENEW").is_some() {
+    if is_renewed() {
         fs::write(&path, expected).unwrap();
     }
     let found = fs::read_to_string(&path).unwrap_or_default();

@@ -300,6 +300,7 @@ const SMALL: &str = include_str!("../inputs/step-ramp-sine.toml");
 fn a_scenario_prints_its_end_and_leaves_every_file() {
     let place = Place::with("small.toml", SMALL);
     let run = place.done("simulate small.toml").fits_eighty();
+    let said = format!("{}{}", run.stdout, run.stderr);
     run.says(&[
         "Results in reports/small",
         "time steps",
@@ -321,6 +322,14 @@ fn a_scenario_prints_its_end_and_leaves_every_file() {
     assert!(index.lines().nth(2).unwrap().starts_with("1,2.5e1,2e0,"));
     let figures = "figures/history.svg figures/history@2x.png figures/profiles.svg figures/profiles.png figures/profiles.csv";
     place.has_all("reports/small", figures);
+    // The figure of load against approach tells the work as the terminal does.
+    let work = said
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix("Work of the indenter: "));
+    let work = work.last().unwrap().split(';').next().unwrap();
+    let caption = read("figures/load-approach.caption.txt");
+    let told = format!("the integral of W over δ along the path, is {work};");
+    assert!(caption.contains(&told), "{caption} {told}");
     assert!(read("summary.json").contains("\"status\": \"done\""));
 }
 
@@ -343,6 +352,8 @@ fn a_folder_without_the_columns_of_the_work_is_drawn_again() {
             .text("old/index.html")
             .contains("work of the indenter")
     );
+    let caption = place.text("old/figures/load-approach.caption.txt");
+    assert!(!caption.contains("work of the indenter"), "{caption}");
 }
 
 #[test]

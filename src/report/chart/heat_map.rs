@@ -65,15 +65,20 @@ pub(super) fn to_scale(chart: &Chart) -> Result<Cow<'_, Chart>, ChartError> {
     if !chart.map.as_deref().is_some_and(is_to_scale) {
         return Ok(Cow::Borrowed(chart));
     }
-    // Far from too low to be laid out.
-    let square = chart.clone().size(chart.size.width_px, chart.size.width_px);
-    let Layout { frame, x, y, .. } = arrange(&square)?.layout;
-    let shape = (y.high - y.low) / (x.high - x.low);
-    let around = f64::from(square.size.height_px) - frame.height();
-    let height = around + frame.width() * shape;
-    Ok(Cow::Owned(
-        square.size(chart.size.width_px, height.round().max(1.0) as u32),
-    ))
+    // A height changes the ticks, and with them the room that labels leave for the frame.
+    const ROUNDS: usize = 12;
+    let mut sized = chart.clone().size(chart.size.width_px, chart.size.width_px);
+    for _ in 0..ROUNDS {
+        let Layout { frame, x, y, .. } = arrange(&sized)?.layout;
+        let shape = (y.high - y.low) / (x.high - x.low);
+        let more = (frame.width() * shape - frame.height()).round();
+        if more == 0.0 {
+            break;
+        }
+        let height_px = f64::from(sized.size.height_px) + more;
+        sized = sized.size(chart.size.width_px, height_px.max(1.0) as u32);
+    }
+    Ok(Cow::Owned(sized))
 }
 
 impl HeatMap {
@@ -341,11 +346,26 @@ mod tests {
     }
 
     #[test]
-    fn lengths_are_to_one_scale_along_both_axes() {
-        let frame = laid_out(&chart(dome(20, 10))).layout.frame;
-        let ratio = frame.width() / frame.height();
-        // Whole pixels: one in 300.
-        assert!((ratio - 2.0).abs() < 0.01, "{ratio}");
+    fn lengths_are_to_one_scale_along_both_axes_at_any_size() {
+        for width_px in (400..900).step_by(7) {
+            for (x, y) in [
+                (400.0, 200.0),
+                (7.3, 7.3),
+                (0.0301, 0.04),
+                (1.0, 3.0),
+                (333.0, 400.0),
+            ] {
+                let mut chart = chart(dome(20, 10)).size(width_px, 1).title("t = 10 s");
+                chart.x = Axis::linear("x / µm").range(-x, x);
+                chart.y = Axis::linear("y / µm").range(-y, y);
+                let frame = laid_out(&chart).layout.frame;
+                let wanted = frame.width() * y / x;
+                assert!(
+                    (frame.height() - wanted).abs() <= 1.0,
+                    "{width_px} px: {frame:?} for {x} x {y}"
+                );
+            }
+        }
     }
 
     #[test]

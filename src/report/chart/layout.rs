@@ -139,6 +139,9 @@ pub(super) fn lay_out(
     checked_size(chart, right - left)?;
     let mut x = AxisMap::new(chart.x.scale, ranges.x, (left, right));
     let x_ticks = ticks::choose(x.scale, x.low, x.high, |ticks| room_for_widths(&x, ticks));
+    if !room_for_widths(&x, &x_ticks.major) {
+        return Err(no_room(chart));
+    }
     if let (Some(last), Some(label_width)) =
         (x_ticks.major.last(), tick_widths(chart, &x_ticks).last())
     {
@@ -276,21 +279,28 @@ pub(super) fn crisp(px: f64) -> f64 {
 }
 
 fn checked_size(chart: &Chart, frame_length: f64) -> Result<(), ChartError> {
-    let size = chart.size;
-    let refuse = |reason| {
-        Err(ChartError::Size {
-            width_px: size.width_px,
-            height_px: size.height_px,
-            reason,
-        })
-    };
-    if size.width_px.max(size.height_px) > LARGEST {
-        return refuse("no side may be longer than 32768 px");
+    if chart.size.width_px.max(chart.size.height_px) > LARGEST {
+        return Err(refused(chart, "no side may be longer than 32768 px"));
     }
-    if frame_length < LEAST_FRAME {
-        return refuse("labels and legend leave no room for the plot; make it larger");
+    match frame_length < LEAST_FRAME {
+        true => Err(no_room(chart)),
+        false => Ok(()),
     }
-    Ok(())
+}
+
+fn no_room(chart: &Chart) -> ChartError {
+    refused(
+        chart,
+        "labels and legend leave no room for the plot; make it larger",
+    )
+}
+
+fn refused(chart: &Chart, reason: &'static str) -> ChartError {
+    ChartError::Size {
+        width_px: chart.size.width_px,
+        height_px: chart.size.height_px,
+        reason,
+    }
 }
 
 /// The widths (px) of the labels.

@@ -12,6 +12,8 @@ pub(super) struct Notes {
     /// The labels of marks that stand nowhere.
     unlabelled: Vec<String>,
     is_thinned: bool,
+    /// Sizes (pt) of its text: asked for, and as there was room for.
+    smaller_text_pt: Option<(f64, f64)>,
 }
 
 impl Notes {
@@ -45,7 +47,15 @@ impl Drawing {
         self.notes.is_thinned
     }
 
-    /// The caption with what it must say besides: which numbers stand for which labels, and that symbols were left out.
+    /// The same, whose text has not the size asked for (pt), for want of room, but this one.
+    #[must_use]
+    pub fn with_smaller_text(mut self, asked_pt: f64, drawn_pt: f64) -> Self {
+        self.notes.smaller_text_pt = Some((asked_pt, drawn_pt));
+        self
+    }
+
+    /// The caption with what it must say besides: which numbers stand for which labels, that symbols were left out, and that text is
+    /// smaller than it should be.
     pub fn captioned(&self, caption: &str) -> String {
         let mut said = caption.to_owned();
         if self.is_thinned() && !caption.contains("symbols at some") {
@@ -60,6 +70,9 @@ impl Drawing {
         }
         if !self.unlabelled().is_empty() {
             said += &format!(" Without a label: {}.", self.unlabelled().join("; "));
+        }
+        if let Some((asked_pt, drawn_pt)) = self.notes.smaller_text_pt {
+            said += &format!(" Text of {asked_pt} pt has no room: it is {drawn_pt:.1} pt high.");
         }
         said
     }

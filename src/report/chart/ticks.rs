@@ -63,26 +63,26 @@ const MOST_DECADES: usize = 11;
 const MOST_NUMBERS: usize = 8;
 
 /// The ticks for `low..high`. `fits` says whether labels at these values have room beside one another; the densest
-/// choice that has room is taken, and two labels where none has.
+/// choice that has room is taken, and where none has, two labels, those at the ends of a denser choice if need be.
 pub(super) fn choose(scale: Scale, low: f64, high: f64, fits: impl Fn(&[Tick]) -> bool) -> Ticks {
     let with_at_most = |most: usize| match scale {
         Scale::Linear => linear(low, high, most.min(MOST_NUMBERS)),
         Scale::Log => log(low, high, most),
     };
-    let mut ticks = with_at_most(MOST_DECADES);
-    for most in (2..MOST_DECADES).rev() {
-        if fits(&ticks.major) {
-            break;
-        }
-        let sparser = with_at_most(most);
-        // One label alone says nothing of the scale: rather the two at the ends of a denser choice.
-        if sparser.major.len() < 2 && ticks.major.len() > 2 {
-            ticks.keep_at_most(2);
-            break;
-        }
-        ticks = sparser;
-    }
-    ticks
+    // One label alone says nothing of the scale.
+    let choices = || {
+        let all = (2..=MOST_DECADES).rev().map(with_at_most);
+        all.filter(|ticks| ticks.major.len() > 1)
+    };
+    let has_room = |ticks: &Ticks| fits(&ticks.major);
+    let ends = |mut ticks: Ticks| {
+        ticks.keep_at_most(2);
+        ticks
+    };
+    (choices().find(has_room))
+        .or_else(|| choices().map(ends).rev().find(has_room))
+        .or_else(|| choices().last())
+        .unwrap_or_else(|| with_at_most(2))
 }
 
 /// Fewer contour lines than these say little of the shape of a map.

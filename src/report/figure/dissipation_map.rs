@@ -1,6 +1,6 @@
-//! Where the energy goes in, over the surface: the work per cycle and area at the frequency of the largest loss.
+//! Where the energy goes in, over the surface: the work per cycle and area of the case of the largest loss.
 
-use super::curve::Curve;
+use super::curve::{Curve, SweepCurves};
 use super::quantity::WORK_PER_AREA;
 use super::units::{Measure, Units};
 use super::{Drawn, Figure};
@@ -16,32 +16,28 @@ const ALONG_RADIUS: usize = 250;
 const BEYOND: usize = 10;
 
 /// The figure, of one curve.
-pub fn figure(curve: &Curve<'_>, units: &Units) -> Drawn {
+pub fn figure(sweep: &SweepCurves<'_>, curve: &Curve<'_>) -> Drawn {
     const NOTHING: &str = "no dissipation map: nothing is dissipated";
     let (record, result) = curve.largest_result().ok_or(NOTHING)?;
     let field = Field::of(&result.cycle.surface_loss).ok_or(NOTHING)?;
-    let frequency = units.frequency_label(record.angular_frequency_rad_per_s);
-    let title = match &curve.label {
-        Some(label) => format!("{frequency}, {label}"),
-        None => frequency,
-    };
+    let of_case = Some(sweep.label_of(record));
+    let title: Vec<String> = of_case.into_iter().chain(curve.label.clone()).collect();
     Ok(Figure {
         name: "dissipation-map".into(),
-        picture: field.chart(title, units).into(),
-        caption: caption(curve, record, units),
+        picture: field.chart(title.join(", "), &sweep.units).into(),
+        caption: caption(sweep, curve, record),
         data: data(&result.cycle.surface_loss),
     })
 }
 
-fn caption(curve: &Curve<'_>, record: &CaseRecord, units: &Units) -> Caption {
-    let at = units.at(record.angular_frequency_rad_per_s);
+fn caption(sweep: &SweepCurves<'_>, curve: &Curve<'_>, record: &CaseRecord) -> Caption {
+    let at = sweep.label_of(record);
     let loss = record.energy_loss_j().map(|loss_j| {
         let loss = with_error(loss_j, record.energy_loss_error_j(), Dimension::Energy);
         format!("Its integral over the surface is the energy loss per cycle, {loss}.")
     });
     Caption::new(format!(
-        "Work that the indenter does on the surface per cycle and area, at {at}, of the computed frequencies that of the \
-         largest loss"
+        "Work that the indenter does on the surface per cycle and area, at {at}, of the computed cases that of the largest loss"
     ))
     .say_all(curve.sentence.clone().into_iter().chain(loss))
 }

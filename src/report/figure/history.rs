@@ -8,6 +8,9 @@ use super::{Drawn, Figure};
 use crate::quantity::Dimension;
 use crate::report::caption::Caption;
 use crate::report::number::{largest, plain};
+use crate::report::words;
+use crate::simulation::scenario::ScenarioPlan;
+use crate::simulation::work::HistoryWork;
 use crate::simulation::{HistoryRow, SimulationOutcome};
 
 /// Points of a curve beyond which only the extremes of each stretch are drawn.
@@ -53,8 +56,8 @@ fn frames(rows: &[HistoryRow], end_s: f64) -> Vec<Plot> {
     shown.map(frame).collect()
 }
 
-/// Load against approach; its data are history.csv too.
-pub fn load_approach(outcome: &SimulationOutcome, units: &Units) -> Drawn {
+/// Load against approach, which tells the work; its data are history.csv too.
+pub fn load_approach(plan: &ScenarioPlan, outcome: &SimulationOutcome, units: &Units) -> Drawn {
     let points = outcome.rows.iter().map(|row| match row.approach_m {
         Some(approach_m) => Point::new(approach_m, row.load_n),
         None => Point::new(0.0, None),
@@ -65,14 +68,18 @@ pub fn load_approach(outcome: &SimulationOutcome, units: &Units) -> Drawn {
     if places.all(|point| Some(point.x) == first) {
         return Err("no figure of load against approach: the approach does not change");
     }
-    let plot = Plot::new(APPROACH, LOAD).traces([Trace::line(points)]);
-    let caption = Caption::new("Load W over approach δ").say(
-        "The area that the curve encloses is the work of the indenter that the body does not give back.",
-    );
+    let plot = Plot::new(APPROACH, LOAD).traces([Trace::line(thinned(points))]);
+    let work = HistoryWork::of(plan, outcome);
+    let caption = Caption::new("Load W over approach δ").say_all(work.map(|work| {
+        format!(
+            "The work of the indenter, the integral of W over δ along the path, is {}.",
+            words::work(&work)
+        )
+    }));
     Ok(Figure::of("load-approach", &[plot], caption, units).without_data())
 }
 
-/// A curve of very many points by the first, least, largest and last of each stretch of it, which looks the same.
+/// A path of very many points by the first, least, largest and last of each stretch of it, which looks the same.
 fn thinned(points: Vec<Point>) -> Vec<Point> {
     if points.len() <= MOST_POINTS {
         return points;

@@ -49,7 +49,7 @@ fn said(line: &Line, drawn: Vec<Drawn>) -> Vec<Drawn> {
 
 /// Over frequency, or over the first axis of numbers at one frequency.
 fn of_main_axis(sweep: &SweepCurves<'_>) -> Vec<Drawn> {
-    let (plan, units) = (sweep.plan, &sweep.units);
+    let plan = sweep.plan;
     let asked = &plan.figures.loops_rad_per_s;
     let Some(curve) = largest(&sweep.curves).filter(|curve| !curve.results().is_empty()) else {
         return vec![Err(
@@ -61,7 +61,7 @@ fn of_main_axis(sweep: &SweepCurves<'_>) -> Vec<Drawn> {
         Ok(loops::figure(sweep)),
         dissipation::figure(sweep, curve),
         dissipation_profile::figure(sweep, curve, asked),
-        dissipation_map::figure(curve, units),
+        dissipation_map::figure(sweep, curve),
     ];
     drawn.extend(moduli::of_sweep(sweep));
     if sweep.family.is_some() && sweep.curves.len() > 1 {

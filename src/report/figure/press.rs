@@ -178,18 +178,35 @@ impl Picture {
         }
     }
 
-    /// The picture in the size asked for.
+    /// The picture in the size asked for, with the texts asked for or, where they leave no room for the plot, as large ones as do.
     fn sized(mut self, plan: &FigurePlan) -> Result<Drawing, ChartError> {
-        let picture = &mut self;
-        let Some(paper) = paper::paper_size(plan) else {
-            return picture.draw();
+        /// Texts of each try to those of the one before, and of the last one to those asked for.
+        const SMALLER: f64 = 0.95;
+        const LEAST: f64 = 0.4;
+        let Some(asked) = paper::paper_size(plan) else {
+            return self.draw();
         };
-        picture.make_fit_for_paper();
-        let height_mm = match picture.resize(&paper)? {
+        self.make_fit_for_paper();
+        let mut paper = asked;
+        loop {
+            match self.clone().on_paper(&paper) {
+                Err(ChartError::Size { .. }) if paper.px_m > LEAST * asked.px_m => {
+                    paper.px_m *= SMALLER;
+                }
+                Ok(drawing) if paper.px_m < asked.px_m => {
+                    return Ok(drawing.with_smaller_text(asked.text_pt(), paper.text_pt()));
+                }
+                drawn => return drawn,
+            }
+        }
+    }
+
+    fn on_paper(mut self, paper: &PaperSize) -> Result<Drawing, ChartError> {
+        let height_mm = match self.resize(paper)? {
             true => paper.height_m.map(|height_m| 1e3 * height_m),
             false => None,
         };
-        let drawing = picture.draw()?;
+        let drawing = self.draw()?;
         Ok(drawing.on_paper(1e3 * paper.width_m, height_mm, 1e3 * paper.px_m))
     }
 

@@ -1,60 +1,56 @@
 //! The contact pressure over the surface as a heat map, blank outside the contact.
 
-use super::press::Press;
+use std::borrow::Cow;
+
+use super::Figure;
 use super::quantity::PRESSURE;
 use super::units::{Measure, Units};
 use crate::contact::surface::{CellSurface, Surface};
 use crate::quantity::Dimension;
-use crate::report::ReportError;
-use crate::report::caption::{Caption, Setting};
+use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, HeatMap};
 use crate::report::number::{self, plain, scientific};
 use crate::simulation::SurfaceRecord;
 
 const NAME: &str = "pressure-map";
 
-/// Writes the map of the field with the largest pressure as `pressure-map`, and, where there are several fields, each as
-/// `pressure-map-<k>`, all to one colour scale. Its data are `cases/fields/<k>-pressure_pa.npy`. Returns why where there is
-/// nothing to draw, nothing where nothing was asked for.
+/// The map of the field with the largest pressure as `pressure-map`, and, where there are several fields, each as `pressure-map-<k>`,
+/// all to one colour scale, each made when its turn comes; their data are `cases/fields/<k>-pressure_pa.npy`. None where no cells are
+/// recorded.
 ///
 /// # Errors
-/// [`ReportError`] naming the figure.
-pub fn write(
+/// Why there is nothing to draw.
+pub fn figures(
     records: &[SurfaceRecord],
-    press: &Press<'_>,
-    (units, setting): (&Units, &Setting),
-) -> Result<Option<String>, ReportError> {
-    let fields: Vec<(usize, f64, &CellSurface)> = records
+    units: &Units,
+) -> Result<impl Iterator<Item = Figure>, &'static str> {
+    let fields = records
         .iter()
         .enumerate()
         .filter_map(|(k, record)| match &record.surface {
             Surface::Cells(cells) => Some((k, record.row.time_s, cells)),
             Surface::Radial(_) => None,
-        })
-        .collect();
+        });
+    let fields: Vec<(usize, f64, &CellSurface)> = fields.collect();
     let by_pressure = |a: &&(usize, f64, &CellSurface), b: &&(usize, f64, &CellSurface)| {
         largest(a.2).total_cmp(&largest(b.2))
     };
-    let Some(&(_, time_s, cells)) = fields.iter().max_by(by_pressure) else {
-        return Ok(None);
-    };
-    let peak = largest(cells);
-    if peak <= 0.0 {
-        return Ok(Some(
-            "no pressure map: at no time asked for is there a contact".to_owned(),
-        ));
+    let most = fields.iter().max_by(by_pressure).copied();
+    let peak = most.map_or(0.0, |(.., cells)| largest(cells));
+    if most.is_some() && peak <= 0.0 {
+        return Err("no pressure map: at no time asked for is there a contact");
     }
-    let write_map = |file: &str, time_s: f64, cells: &CellSurface| {
-        let picture = chart(time_s, cells, peak, units).into();
-        press.picture(file, NAME, &picture, &caption(time_s, cells).text(setting))
+    let figure = move |name: Cow<'static, str>, time_s: f64, cells: &CellSurface| Figure {
+        name,
+        picture: chart(time_s, cells, peak, units).into(),
+        caption: caption(time_s, cells),
+        data: Vec::new(),
     };
-    write_map(NAME, time_s, cells)?;
-    for &(k, time_s, cells) in &fields {
-        if fields.len() > 1 && largest(cells) > 0.0 {
-            write_map(&file(k), time_s, cells)?;
-        }
-    }
-    Ok(None)
+    let each = (fields.len() > 1).then_some(fields).into_iter().flatten();
+    let each = each.filter(|(.., cells)| largest(cells) > 0.0);
+    let each = each.map(move |(k, time_s, cells)| figure(file(k).into(), time_s, cells));
+    let most = most.map(|(_, time_s, cells)| figure(NAME.into(), time_s, cells));
+    Ok(most.into_iter().chain(each))
 }
 
 /// The largest pressure (Pa).

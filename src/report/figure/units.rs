@@ -199,7 +199,9 @@ impl Units {
             },
             (Measure::Of(Dimension::Angle), ..) => Shown::times(180.0 / std::f64::consts::PI, "°"),
             (Measure::Compliance, ..) => {
-                let (factor, prefix) = prefix(largest.recip());
+                // The unit is what is below the line: the largest one by which values are not all below one.
+                const BELOW_1000: f64 = 1000.0 * (1.0 - 1e-12);
+                let (factor, prefix) = prefix(BELOW_1000 / largest);
                 Shown::times(factor.recip(), format!("{prefix}{si}"))
             }
             (Measure::Percent, ..) => Shown::times(100.0, "%"),
@@ -373,6 +375,11 @@ mod tests {
         assert_eq!(title(&normalised), "angular frequency ω / τ⁻¹");
         assert_eq!(si.shown(Measure::Time, 500.0).unit, "s");
         assert_eq!(si.shown(Measure::Time, 0.5).unit, "ms");
+        for (largest, unit) in [(1.9e-6, "MPa⁻¹"), (1e-6, "MPa⁻¹"), (0.9e-6, "GPa⁻¹")] {
+            let shown = si.shown(Measure::Compliance, largest);
+            assert_eq!(shown.unit, unit);
+            assert!((1.0 - 1e-12..1000.0).contains(&shown.of(largest)));
+        }
         assert_eq!(si.sentence(), None);
         let sentence = normalised.sentence().unwrap();
         for part in ["mean load", "W₀ = 10.00 N", "δ₀ = 2.000 µm", "τ = 100.0 s"] {
