@@ -3,7 +3,7 @@
 
 use std::borrow::Cow;
 
-use super::smooth;
+use super::smooth::{self, Line};
 use super::units::{Measure, Shown, Units};
 use crate::drive::Control;
 use crate::quantity::FrequencyUnit;
@@ -450,53 +450,47 @@ impl Plot {
         ]
     }
 
-    /// The smooth line of a trace at these heights; `None` where its points do not resolve one.
-    fn smooth(
+    /// The line through the points of a trace at these heights and through what was located between them, and whether all of it is
+    /// smooth; `None` where it is not to be.
+    fn line(
         &self,
         trace: &Trace,
         heights: &[Option<f64>],
         [x, y]: [Scale; 2],
-    ) -> Option<Vec<Option<(f64, f64)>>> {
+    ) -> Option<(Vec<Option<(f64, f64)>>, bool)> {
         let on = |scale: Scale, value: f64| match scale {
             Scale::Log => (value > 0.0).then(|| value.log10()),
             Scale::Linear => Some(value),
         };
         let place = |(px, py): (f64, f64)| Some((on(x, px)?, on(y, py)?));
-        let located: Vec<_> = trace
-            .smooth
-            .iter()
-            .flatten()
-            .copied()
-            .filter_map(place)
-            .collect();
+        let located = trace.smooth.as_ref()?.iter().copied();
+        let located: Vec<_> = located.filter_map(place).collect();
         let points = trace.points.iter().zip(heights);
         let points = points.map(|(point, height)| place((point.x, (*height)?)));
         let points: Vec<Option<(f64, f64)>> = points.collect();
-        trace.smooth.as_ref()?;
-        let mut drawn = Vec::new();
+        let (mut drawn, mut is_smooth) = (Vec::new(), true);
         for run in points.split(Option::is_none).filter(|run| !run.is_empty()) {
             let run: Vec<(f64, f64)> = run.iter().copied().flatten().collect();
-            let curve = match run.len() {
-                1 => run,
-                _ => smooth::curve(&run, &located)?,
+            let points = match smooth::line(&run, &located) {
+                Line::Smooth(points) => points,
+                Line::Straight(points) => {
+                    is_smooth &= run.len() == 1;
+                    points
+                }
             };
-            drawn.extend(
-                curve
-                    .into_iter()
-                    .map(|(px, py)| Some((x.value(px), y.value(py)))),
-            );
+            let points = points.into_iter();
+            drawn.extend(points.map(|(px, py)| Some((x.value(px), y.value(py)))));
             drawn.push(None);
         }
-        Some(drawn)
+        Some((drawn, is_smooth))
     }
 
     /// Whether all curves that are to be smooth are; `None` where none is to be.
     fn is_smooth(&self) -> Option<bool> {
         let scales = self.scales();
-        let all = self.traces.iter().enumerate();
-        let all = all.filter(|(_, trace)| trace.smooth.is_some());
-        let is_smooth = |(k, trace)| self.smooth(trace, &self.heights(k), scales).is_some();
-        let all: Vec<bool> = all.map(is_smooth).collect();
+        let traces = self.traces.iter().enumerate();
+        let lines = traces.filter_map(|(k, trace)| self.line(trace, &self.heights(k), scales));
+        let all: Vec<bool> = lines.map(|(_, is_smooth)| is_smooth).collect();
         (!all.is_empty()).then(|| !all.contains(&false))
     }
 
@@ -511,8 +505,9 @@ impl Plot {
         let series = self.traces.iter().enumerate().map(|(k, trace)| {
             let heights = self.heights(k);
             let mut series = on.series(trace, &heights);
-            let smooth = self.smooth(trace, &heights, on.scales);
-            let curve = smooth.map(|points| points.into_iter().map(|at| on.place(at?)).collect());
+            let line = self.line(trace, &heights, on.scales);
+            let curve =
+                line.map(|(points, _)| points.into_iter().map(|at| on.place(at?)).collect());
             match (series.area_to, curve) {
                 (Some(_), Some(curve)) => series.points = curve,
                 (_, curve) => series.curve = curve,

@@ -84,11 +84,19 @@ fn at_end([own, next]: [f64; 2], [near, far]: [f64; 2]) -> f64 {
     }
 }
 
-/// The smooth curve through samples at ascending x and through located extremes; `None` where the samples do not resolve it.
-pub(super) fn curve(samples: &[Point], located: &[Point]) -> Option<Vec<Point>> {
+/// A line through samples at ascending x and through extremes that were located between them.
+#[derive(Debug, PartialEq)]
+pub(super) enum Line {
+    /// Straight from point to point: the samples do not resolve a curve.
+    Straight(Vec<Point>),
+    Smooth(Vec<Point>),
+}
+
+/// The line.
+pub(super) fn line(samples: &[Point], located: &[Point]) -> Line {
     let all = merged(samples, located);
     if samples.len() < FEWEST || !is_resolved(samples, located) {
-        return None;
+        return Line::Straight(all);
     }
     let smooth = Smooth::through(&all);
     let between = (PIECES / all.len()).clamp(1, MOST_BETWEEN);
@@ -96,7 +104,7 @@ pub(super) fn curve(samples: &[Point], located: &[Point]) -> Option<Vec<Point>> 
         let smooth = &smooth;
         (0..between).map(move |piece| smooth.between(k, piece as f64 / between as f64))
     });
-    Some(pieces.chain(all.last().copied()).collect())
+    Line::Smooth(pieces.chain(all.last().copied()).collect())
 }
 
 /// Both in ascending x; of two at the same place the sample.
@@ -151,9 +159,13 @@ mod tests {
         for per_decade in 1..=20 {
             for shift in [0.0, 0.2, 0.37, 0.5, 0.71] {
                 let samples = samples(per_decade, shift);
-                let Some(curve) = curve(&samples, &[(0.0, 1.0)]) else {
-                    assert!(per_decade < 5, "{per_decade} samples a decade resolve it");
-                    continue;
+                let curve = match line(&samples, &[(0.0, 1.0)]) {
+                    Line::Smooth(curve) => curve,
+                    Line::Straight(points) => {
+                        assert!(per_decade < 5, "{per_decade} samples a decade resolve it");
+                        assert!(points.contains(&(0.0, 1.0)));
+                        continue;
+                    }
                 };
                 let off = curve.iter().map(|(x, y)| (y - debye(*x)).abs());
                 let off = off.fold(0.0, f64::max);
@@ -171,7 +183,9 @@ mod tests {
     fn the_error_falls_with_the_third_power_of_the_distance_of_samples() {
         let off = |per_decade: usize| {
             let samples = samples(per_decade, 0.3);
-            let curve = curve(&samples, &[(0.0, 1.0)]).unwrap();
+            let Line::Smooth(curve) = line(&samples, &[(0.0, 1.0)]) else {
+                panic!("{per_decade} samples a decade resolve it");
+            };
             let off = curve.iter().map(|(x, y)| (y - debye(*x)).abs());
             off.fold(0.0, f64::max)
         };
@@ -180,14 +194,19 @@ mod tests {
     }
 
     #[test]
-    fn samples_that_do_not_resolve_a_curve_have_none() {
-        assert_eq!(curve(&[], &[]), None);
-        assert_eq!(curve(&[(0.0, 1.0), (1.0, 2.0)], &[]), None);
+    fn samples_that_do_not_resolve_a_curve_are_joined_by_straight_lines() {
+        assert_eq!(line(&[], &[]), Line::Straight(Vec::new()));
+        let two = [(0.0, 1.0), (1.0, 2.0)];
+        assert_eq!(line(&two, &[]), Line::Straight(two.to_vec()));
+        let between = vec![two[0], (0.5, 3.0), two[1]];
+        assert_eq!(line(&two, &[(0.5, 3.0)]), Line::Straight(between));
         let saw: Vec<Point> = (0..9).map(|k| (f64::from(k), f64::from(k % 2))).collect();
-        assert_eq!(curve(&saw, &[]), None);
+        assert_eq!(line(&saw, &[]), Line::Straight(saw.clone()));
         // A straight line stays one.
-        let line: Vec<Point> = (0..5).map(|k| (f64::from(k), 2.0 * f64::from(k))).collect();
-        let drawn = curve(&line, &[]).unwrap();
+        let straight: Vec<Point> = (0..5).map(|k| (f64::from(k), 2.0 * f64::from(k))).collect();
+        let Line::Smooth(drawn) = line(&straight, &[]) else {
+            panic!("five points on a line resolve it");
+        };
         assert!(drawn.iter().all(|(x, y)| (y - 2.0 * x).abs() < 1e-12));
         assert_eq!(drawn.len(), 4 * MOST_BETWEEN + 1);
     }
