@@ -2,7 +2,7 @@
 
 use super::number::{self, plain, with_error};
 use crate::quantity::Dimension;
-use crate::sweep::plan::SweepPlan;
+use crate::sweep::plan::{AxisValues, SweepPlan};
 use crate::sweep::search::peak::Peak;
 use crate::sweep::search::run::Outcome;
 
@@ -67,7 +67,7 @@ pub fn all(plan: &SweepPlan, outcome: &Outcome) -> Vec<PeakWords> {
             .map(|error| unit.of(error)),
             unit.dimension(),
         ),
-        under: under(plan, peak).unwrap_or_default(),
+        under: under(plan, &peak.varied),
         material: of_material(plan, peak).unwrap_or_default(),
         equals: match rank {
             0 => equals(&outcome.peaks),
@@ -121,13 +121,14 @@ fn equals(peaks: &[Peak]) -> String {
     }
 }
 
-fn under(plan: &SweepPlan, peak: &Peak) -> Option<String> {
-    let over = plan.axes.as_ref()?.over.iter().zip(peak.varied.all());
-    let words = over.map(|(varied, value)| {
+/// `, temperature 25 °C`: what axes vary of it; nothing where there are none.
+fn under(plan: &SweepPlan, values: &AxisValues) -> String {
+    let over = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
+    let words = over.iter().zip(values.all()).map(|(varied, value)| {
         let value = number::varied(varied, *value);
         format!(", {} {value}", varied.name())
     });
-    Some(words.collect())
+    words.collect()
 }
 
 /// The same; of a sweep of two axes the largest alone: each curve has its own.
@@ -139,16 +140,41 @@ pub fn shown(plan: &SweepPlan, outcome: &Outcome) -> Vec<PeakWords> {
     peaks
 }
 
-/// Why there is no peak.
-pub fn none(plan: &SweepPlan, outcome: &Outcome) -> &'static str {
+/// Why there is no peak; of cases at one frequency, which one loses the most.
+pub fn none(plan: &SweepPlan, outcome: &Outcome) -> String {
     let is_elastic = plan.cycle.at_cycle.is_none() && outcome.branches() == 0;
-    if !outcome.records.iter().any(|r| r.status.has_result()) {
+    let frequencies = plan.angular_frequencies_rad_per_s.len();
+    let why = if !outcome.records.iter().any(|r| r.status.has_result()) {
         "No peak: no case converged."
     } else if is_elastic {
         "No peak: the material has no branches; an elastic body loses nothing."
-    } else if plan.angular_frequencies_rad_per_s.len() < 3 {
+    } else if let (1, Some(most)) = (frequencies, largest_case(plan, outcome)) {
+        return most;
+    } else if frequencies < 3 {
         "No peak: it takes at least three frequencies to enclose one."
     } else {
         "No peak inside the sweep: the loss is largest at one of its ends. Widen the sweep."
-    }
+    };
+    why.to_owned()
+}
+
+/// The case of the largest loss, among several that differ in something else than the frequency.
+fn largest_case(plan: &SweepPlan, outcome: &Outcome) -> Option<String> {
+    plan.axes.as_ref()?;
+    let losses = outcome.records.iter();
+    let losses = losses.filter_map(|record| Some((record, record.energy_loss_j()?)));
+    let (record, loss_j) = losses.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let error_j = with_material(
+        record.energy_loss_error_j(),
+        record.energy_loss_material_error_j(),
+    );
+    let unit = plan.figures.frequency_unit;
+    let frequency = unit.of(record.angular_frequency_rad_per_s);
+    Some(format!(
+        "Largest loss: {} at {} = {}{}",
+        with_error(loss_j, error_j, Dimension::Energy),
+        unit.symbol(),
+        plain(frequency, unit.dimension(), 4),
+        under(plan, &record.varied)
+    ))
 }

@@ -16,7 +16,7 @@ use super::words::without_result;
 use crate::history::Work;
 use crate::quantity::{Dimension, FrequencyUnit, format_human};
 use crate::report::warnings;
-use crate::sweep::plan::{Axes, Block, Case, Condition, SweepPlan, Varied};
+use crate::sweep::plan::{Axes, AxisValues, Block, Case, Condition, SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::Outcome;
 use crate::sweep::share::shard::Shard;
@@ -50,13 +50,35 @@ pub fn text(plan: &SweepPlan, outcome: &Outcome, left_out: &[String]) -> Text {
     text
 }
 
-/// One line per case: frequency, loss with its error, phase, cycles, status; an absent value is a dash. A sweep of two axes
-/// has one line per value of the second instead: its cases are too many to be read.
+/// One line per case: frequency, or at one frequency what axes vary, loss with its error, phase, cycles, status; an absent value is a
+/// dash. A sweep of several frequencies and another axis has one line per value of that instead: its cases are too many to be read.
 fn table(plan: &SweepPlan, outcome: &Outcome) -> Text {
     match &plan.axes {
-        Some(axes) => conditions(plan, axes, outcome),
-        None => cases(plan.figures.frequency_unit, &outcome.records),
+        Some(axes) if plan.angular_frequencies_rad_per_s.len() > 1 => {
+            conditions(plan, axes, outcome)
+        }
+        Some(axes) => cases(&axes_head(axes), &outcome.records, |record| {
+            axes_values(axes, &record.varied)
+        }),
+        None => {
+            let unit = plan.figures.frequency_unit;
+            cases(&frequency_head(unit), &outcome.records, |record| {
+                four_digits(unit.of(record.angular_frequency_rad_per_s))
+            })
+        }
     }
+}
+
+/// What axes vary: `temperature, radius`, and values of it: `25 °C, 1 mm`.
+fn axes_head(axes: &Axes) -> String {
+    let names: Vec<String> = axes.over.iter().map(Varied::name).collect();
+    names.join(", ")
+}
+
+fn axes_values(axes: &Axes, values: &AxisValues) -> String {
+    let values = axes.over.iter().zip(values.all());
+    let values = values.map(|(varied, value)| Units::default().varied_value(varied, *value));
+    values.collect::<Vec<_>>().join(", ")
 }
 
 /// The head of a column of frequencies: `ω / rad/s`.
@@ -64,7 +86,7 @@ fn frequency_head(unit: FrequencyUnit) -> String {
     format!("{} / {}", unit.symbol(), unit.name())
 }
 
-fn cases(unit: FrequencyUnit, records: &[CaseRecord]) -> Text {
+fn cases(head: &str, records: &[CaseRecord], first: impl Fn(&CaseRecord) -> String) -> Text {
     let has_material_error = (records.iter()).any(|r| r.energy_loss_material_error_j().is_some());
     // Both would make the lines too long.
     let fourth = match has_material_error {
@@ -72,7 +94,7 @@ fn cases(unit: FrequencyUnit, records: &[CaseRecord]) -> Text {
         false => Column::right("cycles", 6).leaves_first(),
     };
     let columns = [
-        Column::right(frequency_head(unit), 10),
+        Column::right(head, 10),
         Column::left("loss / cycle", 23),
         Column::right("phase / deg", 11),
         fourth,
@@ -82,7 +104,7 @@ fn cases(unit: FrequencyUnit, records: &[CaseRecord]) -> Text {
     for record in records {
         let phase = record.result.as_ref().map(|r| r.analysis.phase_lag_rad);
         table.row([
-            four_digits(unit.of(record.angular_frequency_rad_per_s)),
+            first(record),
             loss(record.energy_loss_j(), record.energy_loss_error_j()),
             or_dash(phase.map(|rad| format!("{:.4}", rad.to_degrees()))),
             match has_material_error {
@@ -112,17 +134,10 @@ fn material_error(record: &CaseRecord) -> Option<String> {
 
 /// Each value of the second axis with its highest peak.
 fn conditions(plan: &SweepPlan, axes: &Axes, outcome: &Outcome) -> Text {
-    let names: Vec<String> = axes.over.iter().map(Varied::name).collect();
     let unit = plan.figures.frequency_unit;
-    let units = Units::default();
-    let curves = figure::curve::curves(plan, outcome, &units);
-    let value = |condition: &Condition| {
-        let values = axes.over.iter().zip(condition.values.all());
-        let values = values.map(|(varied, value)| units.varied_value(varied, *value));
-        values.collect::<Vec<_>>().join(", ")
-    };
+    let curves = figure::curve::curves(plan, outcome, &Units::default());
     let columns = [
-        Column::right(names.join(", "), 10),
+        Column::right(axes_head(axes), 10),
         Column::right("converged", 9).stays(),
         Column::left(" loss / cycle, peak", 23),
         Column::right(frequency_head(unit), 12),
@@ -133,7 +148,7 @@ fn conditions(plan: &SweepPlan, axes: &Axes, outcome: &Outcome) -> Text {
         let error_j = peak.and_then(|p| p.energy_loss_error_j);
         let at = peak.map(|p| four_digits(unit.of(p.angular_frequency_rad_per_s)));
         table.row([
-            value(&curve.condition),
+            axes_values(axes, &curve.condition.values),
             format!("{} of {}", curve.results().len(), curve.records.len()),
             loss(peak.map(|p| p.energy_loss_j), error_j),
             or_dash(at),

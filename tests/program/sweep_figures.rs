@@ -280,6 +280,30 @@ fn figures_that_do_not_apply_are_left_out_and_said() {
 }
 
 #[test]
+fn the_terminal_has_the_loss_of_every_case_at_one_frequency_and_the_largest() {
+    let axis = "[sweep]\nangular_frequency = [\"0.01 rad/s\"]\ndrive.amplitude = [\"1 N\", \"2 N\", \"8 N\"]\n";
+    let place = Place::with("one.toml", &pmma_sweep(axis));
+    let run = place.done("sweep one.toml --no-figures --out out --set cycle.steps=32");
+    let table = Table::of(&place.text("out/sweep.csv"));
+    let losses = table.numbers("energy_loss_j");
+    assert!(losses.is_sorted(), "{losses:?}");
+    let said = run.stdout.clone() + &run.stderr;
+    for (amplitude, loss_j) in ["1 N", "2 N", "8 N"].iter().zip(&losses) {
+        let row = said.lines().find(|line| line.trim().starts_with(amplitude));
+        // A number of a few digits, in a prefix that suits it: 116.0 nJ, 8.37 µJ.
+        let told = row.unwrap().split_whitespace().nth(2).unwrap();
+        let told: f64 = told.parse().unwrap();
+        let digits = (loss_j / told).log10();
+        assert!((digits - digits.round()).abs() < 1e-3, "{told} {loss_j}");
+    }
+    let most = said.lines().find(|line| line.starts_with("Largest loss: "));
+    assert!(
+        most.unwrap().ends_with(" at ω = 10⁻² rad/s, amplitude 8 N"),
+        "{most:?}"
+    );
+}
+
+#[test]
 fn one_frequency_is_drawn_over_the_axis_and_its_table_has_every_case() {
     let amplitudes = [1.0, 2.0, 4.0, 6.0, 8.0];
     let swept = swept(with_amplitudes(pmma(&[0.008]), &amplitudes));

@@ -15,7 +15,7 @@ pub(super) fn peaks(plan: &SweepPlan, outcome: &Outcome) -> Markup {
         let problems = problems.map(|problem| format!("Peak not located: {problem}"));
         let mut why: Vec<String> = problems.collect();
         if why.is_empty() && !outcome.interrupted {
-            why.push(peaks::none(plan, outcome).to_owned());
+            why.push(peaks::none(plan, outcome));
         }
         return html! { p class="peaks" { (why.join("\n")) } };
     }
