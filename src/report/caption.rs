@@ -83,8 +83,17 @@ impl Setting {
         let attraction = after_comma(adhesion_line(plan.base.contact.adhesion));
         let swept = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
         let varied = after_comma(varied_line(plan));
+        // What is drawn over another axis does not tell the frequency, where there is but one.
+        let one = match (&plan.axes, plan.angular_frequencies_rad_per_s.as_slice()) {
+            (Some(_), [omega]) => {
+                let unit = plan.figures.frequency_unit;
+                let value = plain(unit.of(*omega), unit.dimension(), 4);
+                format!(", {} = {value}", unit.symbol())
+            }
+            _ => String::new(),
+        };
         let of = format!(
-            "{} on {}{}, {} (mean ± amplitude){rest}{attraction}{varied}",
+            "{} on {}{}, {} (mean ± amplitude){one}{rest}{attraction}{varied}",
             words::each_of(plan, Block::Indenter, |name, c| {
                 indenter(
                     (name, c.contact.indenter.as_ref()),

@@ -316,6 +316,11 @@ fn one_frequency_is_drawn_over_the_axis_and_its_table_has_every_case() {
         caption.starts_with("Energy loss per cycle over load amplitude: "),
         "{caption}"
     );
+    // What every case has in common is told too, in every caption.
+    for name in swept.figures() {
+        let caption = swept.text(&format!("figures/{name}.caption.txt"));
+        assert!(caption.contains(", ω = 8 × 10⁻³ rad/s"), "{caption}");
+    }
     // The material is the same at every amplitude: a diagram of its moduli would be a point.
     assert!(swept.figures().contains("moduli") && !swept.figures().contains("cole-cole"));
     let own = swept.column("figures/moduli.csv", "modulus_pa");

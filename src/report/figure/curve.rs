@@ -287,9 +287,13 @@ impl<'a> SweepCurves<'a> {
                 let omega = record.angular_frequency_rad_per_s;
                 self.units.frequency_label(omega)
             }
-            Abscissa::Axis(_) => {
+            Abscissa::Axis(axis) => {
                 let value = self.units.value(self.x.measure, self.place(record), 4);
-                format!("{} {value}", self.x.words)
+                let axes = self.plan.axes.as_ref();
+                match axes.and_then(|axes| axes.over.get(axis)) {
+                    Some(varied) => literal(&format!("{} {value}", varied.name())),
+                    None => value,
+                }
             }
         }
     }

@@ -13,13 +13,13 @@ use crate::report::table::{cells, csv};
 pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
     let points = report.points();
     let symbol = report.symbol();
-    let curve = |part: Part| part.curve(report, "fit").color(part.color);
+    let curve = |part: Part| part.curve(report).color(part.color);
     let measured = |part: Part| {
         Trace::symbols(points.iter().map(|point| part.point(point)))
             .spaced()
             .marker(part.marker)
             .color(part.color)
-            .label(part.label(report))
+            .label(part.called(report, "measured"))
     };
     let plot = Plot::new(frequency(report), MODULUS)
         .traces([STORAGE, LOSS].map(curve))

@@ -19,10 +19,7 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Option<Figure> {
         })
     };
     let legend = |part: Part| legend_of_marker(part.label(report), part.marker);
-    let curve = |part: Part| {
-        part.curve(report, "series")
-            .color(Color::Rgb(0x1A, 0x1A, 0x1A))
-    };
+    let curve = |part: Part| part.curve(report).color(Color::Rgb(0x1A, 0x1A, 0x1A));
     let plot = Plot {
         color_scale: temperatures(report),
         ..Plot::new(frequency(report), MODULUS)

@@ -68,20 +68,22 @@ const LOSS: Part = Part {
 impl Part {
     /// `storage modulus E′`.
     fn label(&self, report: &DynamicReport<'_>) -> String {
-        format!("{} {}{}", self.name, report.symbol(), self.primes)
+        self.called(report, self.name)
     }
 
-    /// The fitted series as a curve; called what it is beside the symbol.
-    fn curve(&self, report: &DynamicReport<'_>, called: &str) -> Trace {
+    /// `measured E′`.
+    fn called(&self, report: &DynamicReport<'_>, what: &str) -> String {
+        format!("{what} {}{}", report.symbol(), self.primes)
+    }
+
+    /// The fitted series as a curve.
+    fn curve(&self, report: &DynamicReport<'_>) -> Trace {
         let points = frequencies(report).into_iter().map(|omega| {
             let modulus = report.relaxation().complex_modulus(omega);
             (omega, (self.of_modulus)(modulus))
         });
-        Trace::line(points).style(self.style).label(format!(
-            "{called} {}{}",
-            report.symbol(),
-            self.primes
-        ))
+        let label = self.called(report, "series");
+        Trace::line(points).style(self.style).label(label)
     }
 
     /// A point of this modulus.
