@@ -228,7 +228,7 @@ class Figure:
         """
     def save(self, /, file: str | PathLike[str]) -> None:
         """
-        Writes it as its ending says: ``.svg``, ``.pdf`` or ``.png``.
+        Writes it as its ending says: ``.svg``, ``.pdf``, ``.eps`` or ``.png``.
 
         Args:
             file: is replaced where it is there.

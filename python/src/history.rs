@@ -8,6 +8,7 @@ use std::sync::atomic::Ordering;
 use contact_dma::contact::surface::{CellSurface, Surface};
 use contact_dma::input::diagnostic::Tables;
 use contact_dma::input::scenario_file;
+use contact_dma::report::figure::pressure_map;
 use contact_dma::report::figure::units::Units;
 use contact_dma::report::profile_lines::{Profile, ProfilePoint};
 use contact_dma::report::quantities::{Moment, of_cycles, of_moments};
@@ -82,7 +83,10 @@ impl History {
 
     fn _figures(&self) -> PyResult<Vec<Figure>> {
         let units = Units::of_scenario(&self.plan).map_err(|error| failure::of_report(&error))?;
-        let (figures, _) = report::scenario::lines(&self.made, &units);
+        let (mut figures, _) = report::scenario::lines(&self.plan, &self.made, &units);
+        if let Ok(maps) = pressure_map::figures(&self.made.outcome.fields, &units) {
+            figures.extend(maps);
+        }
         Ok(Figure::all(figures, &self.plan.figures))
     }
 

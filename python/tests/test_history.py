@@ -121,9 +121,11 @@ def test_arrays_drive_and_samples_as_they_are() -> None:
 
 
 def test_a_history_has_its_summary_and_figures(tmp_path: Path) -> None:
-    result = held(error_bars=False)
+    result = held(fields_at=[100.0, 200.0], field_cells=16, error_bars=False)
     result.save(tmp_path)
     assert json.loads((tmp_path / "summary.json").read_text()) == result.summary
+    assert set(result.figures) == {path.stem for path in (tmp_path / "figures").glob("*.svg")}
+    assert {"load-approach", "pressure-map", "pressure-map-1"} <= set(result.figures)
     assert "history" in result.figures and "<svg" in str(result.figures["history"]._repr_html_())
 
 

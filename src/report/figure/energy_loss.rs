@@ -46,7 +46,15 @@ pub fn figure(sweep: &SweepCurves<'_>) -> Figure {
     });
     let marks: Vec<Mark> = marks.collect();
     let caption = caption(sweep, shown.len(), !marks.is_empty());
-    let plot = sweep.plot(ENERGY_LOSS).traces(traces).marks(marks);
+    let which = match shown[..] {
+        [curve] => curve.label.clone(),
+        _ => None,
+    };
+    let plot = sweep
+        .plot(ENERGY_LOSS)
+        .title(which)
+        .traces(traces)
+        .marks(marks);
     Figure::of("energy-loss", &[plot], caption, &sweep.units)
 }
 
