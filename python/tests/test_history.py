@@ -120,10 +120,11 @@ def test_arrays_drive_and_samples_as_they_are() -> None:
         solid.complex_modulus(1.0)
 
 
-def test_a_history_has_its_summary_and_figures(tmp_path: Path) -> None:
+def test_a_history_has_its_summary_and_the_figures_that_the_program_draws(tmp_path: Path, program: str) -> None:
     result = held(fields_at=[100.0, 200.0], field_cells=16, error_bars=False)
     result.save(tmp_path)
     assert json.loads((tmp_path / "summary.json").read_text()) == result.summary
+    subprocess.run([program, "report", str(tmp_path)], check=True, capture_output=True)
     assert set(result.figures) == {path.stem for path in (tmp_path / "figures").glob("*.svg")}
     assert {"load-approach", "pressure-map", "pressure-map-1"} <= set(result.figures)
     assert "history" in result.figures and "<svg" in str(result.figures["history"]._repr_html_())

@@ -37,7 +37,9 @@ def test_every_result_comes_back_from_an_older_folder(tmp_path: Path) -> None:
     segments = [{"kind": "ramp", "to": "5 N", "duration": "10 s"}]
     history = cd.simulate(cd.Material.library("pmma"), cd.Sphere("10 mm"), springs=32, segments=segments, profiles_at=["5 s"])
     found = cd.identify(data, sphere, poisson_ratio=0.45, branches=1, **drive)
-    for name, result in {"sweep": small_sweep(), "history": history, "analysis": cd.analyse(loop), "solid": found}.items():
+    results: dict[str, cd.SweepResult | cd.HistoryResult | cd.AnalysisResult | cd.IdentifiedMaterial]
+    results = {"sweep": small_sweep(), "history": history, "analysis": cd.analyse(loop), "solid": found}
+    for name, result in results.items():
         result.save(tmp_path / name)
         again = cd.read(older(tmp_path / name))
         if isinstance(again, cd.IdentifiedMaterial):
