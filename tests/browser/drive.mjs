@@ -180,6 +180,28 @@ test("cases without a result are named, cannot be chosen, and are not drawn", ()
   assert.ok((await page.evaluate(() => document.querySelector("#profile").spec.series.map((s) => s.y[0] === null && s.y[1] > 0))).every(Boolean));
 }));
 
+test("at one frequency the curve is over the first axis, and another axis is chosen", () => open("temperatures", {}, async (page) => {
+  const all = rows("temperatures").map((row) => ({ ...row, celsius: row.material_temperature_k - 273.15 }));
+  const best = all.reduce((a, b) => (Number(a.energy_loss_j) >= Number(b.energy_loss_j) ? a : b));
+  assert.equal(await chosen(page), Number(best.index));
+  const title = (await page.locator("#curve svg text").allTextContents()).find((text) => text.startsWith("temperature"));
+  assert.equal(title, "temperature of the material / °C");
+  assert.equal(await page.locator("#log-x").isChecked(), false);
+  // The cases of one radius from the lowest temperature to the highest, as the arrow keys pass them.
+  const cases = await page.locator("#case option").allInnerTexts();
+  assert.deepEqual(cases.map((text) => text.split(" (")[0]), ["20 °C", "30 °C", "40 °C", "50 °C", "60 °C"]);
+  await page.locator("#curve").press("Home");
+  for (let k = 0; k < 5; k++) {
+    const row = all.find((row) => row.indenter_radius_m === best.indenter_radius_m && Math.abs(row.celsius - 20 - 10 * k) < 1e-6);
+    assert.equal(await chosen(page), Number(row.index));
+    await page.locator("#curve").press("ArrowRight");
+  }
+  const radii = await page.locator("#drive option").allInnerTexts();
+  assert.deepEqual(radii, ["1 mm", "3 mm"]);
+  await page.selectOption("#drive", { label: radii.find((text) => parseFloat(text) !== 1e3 * best.indenter_radius_m) });
+  assert.notEqual(all[await chosen(page)].indenter_radius_m, best.indenter_radius_m);
+}));
+
 test("a sweep of two axes lets its drive be chosen, and shows maps", () => open("two-axes", {}, async (page) => {
   assert.equal(await page.evaluate(() => document.querySelector("#curve").spec.series.length), 2);
   await page.selectOption("#drive", { index: 0 });

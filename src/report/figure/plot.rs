@@ -41,6 +41,16 @@ pub(super) const WIDE: f64 = 8.0;
 /// The same of the highest points of curves.
 const WIDE_CURVES: f64 = 20.0;
 
+impl Spread {
+    /// The scale on which values are seen together.
+    pub fn of_values(values: Vec<f64>) -> Scale {
+        match is_even(&values) {
+            true => Scale::Linear,
+            false => scale(range(values), WIDE),
+        }
+    }
+}
+
 impl Quantity {
     pub const fn new(column: &'static str, words: &'static str, measure: Measure) -> Self {
         Self {
@@ -400,8 +410,7 @@ impl Plot {
             Spread::Linear => Scale::Linear,
             Spread::Log => Scale::Log,
             Spread::OfCurves => scale(range(highest.iter().copied()), WIDE_CURVES),
-            Spread::OfValues if is_even(&values) => Scale::Linear,
-            Spread::OfValues => scale(range(values), WIDE),
+            Spread::OfValues => Spread::of_values(values),
         };
         [of(&self.x, xs().collect()), of(&self.y, ys().collect())]
     }

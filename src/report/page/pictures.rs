@@ -70,8 +70,9 @@ impl Pictures {
         for name in names {
             let reason = || html! { p { (reasons.get(*name).map_or("", String::as_str)) } };
             let picture = self.inline(name).unwrap_or_else(reason);
+            let whole = self.captioned(name, picture.clone());
             page = page.replace(&mark("picture", name), &picture.into_string());
-            page = page.replace(&mark("files", name), &self.files(name).into_string());
+            page = page.replace(&mark("whole", name), &whole.into_string());
             for is_still in [true, false] {
                 let mark = mark(gallery_mark(is_still), name);
                 if page.contains(&mark) {
@@ -153,6 +154,28 @@ impl Pictures {
         }
     }
 
+    /// Figures with their pictures in the page itself, captions and links to their files.
+    pub(super) fn whole<'a>(&self, names: impl IntoIterator<Item = &'a str>) -> Markup {
+        let whole = |name: &str| match self.are_marks {
+            true => PreEscaped(mark("whole", name)),
+            false => self.captioned(name, self.inline(name).unwrap_or_default()),
+        };
+        html! { div class="gallery" { @for name in names { (whole(name)) } } }
+    }
+
+    /// A picture with its caption and links to its files.
+    fn captioned(&self, name: &str, picture: Markup) -> Markup {
+        let caption = lock(&self.by_name)
+            .get(name)
+            .map(|shown| shown.caption.clone());
+        html! {
+            figure id={ "figure-" (name) } {
+                (picture)
+                figcaption { (caption.unwrap_or_default()) (self.files(name)) }
+            }
+        }
+    }
+
     /// Every figure with its caption and links to its files: first those that stand in other places of the page as stills.
     pub(super) fn gallery(&self, stills: &[&str]) -> Markup {
         let drawn =
@@ -186,7 +209,6 @@ impl Pictures {
         let mut endings = [".svg", ".png"].into_iter();
         let file = endings.find(|ending| shown.endings.contains(*ending));
         let is_inline = file.is_none() && !shown.differs_from_file && shown.element.len() <= *room;
-        let caption = shown.caption.clone();
         let picture = match file {
             _ if is_still && !shown.differs_from_file => Markup::default(),
             Some(ending) => {
@@ -200,19 +222,11 @@ impl Pictures {
             None => Markup::default(),
         };
         drop(pictures);
-        html! {
-            figure id={ "figure-" (name) } {
-                (picture)
-                figcaption { (caption) (self.files(name)) }
-            }
-        }
+        self.captioned(name, picture)
     }
 
     /// Links to the files of a figure.
-    pub(super) fn files(&self, name: &str) -> Markup {
-        if self.are_marks {
-            return PreEscaped(mark("files", name));
-        }
+    fn files(&self, name: &str) -> Markup {
         let pictures = lock(&self.by_name);
         let mut endings: Vec<&String> = match pictures.get(name) {
             Some(shown) => shown.endings.iter().collect(),

@@ -3,11 +3,8 @@
 use maud::{Markup, Render, html};
 use serde::Serialize;
 
-use super::Pictures;
 use super::frame::{Frame, Input};
 use crate::report::ReportError;
-use crate::report::caption::Setting;
-use crate::report::figure::Figure;
 use crate::sweep::plan::resolved;
 
 /// What the script knows.
@@ -42,20 +39,6 @@ pub(super) fn found_material(block: &str) -> Input<'_> {
         ("material.toml", block),
         "The material as a block of a sweep file, every number exact.",
     )
-}
-
-/// Figures with their captions.
-pub(super) fn shown(figures: &[Figure], pictures: &Pictures) -> Markup {
-    html! {
-        @for figure in figures {
-            @if let Some(picture) = pictures.inline(&figure.name) {
-                figure {
-                    (picture)
-                    figcaption { (figure.caption.text(&Setting::default())) (pictures.files(&figure.name)) }
-                }
-            }
-        }
-    }
 }
 
 /// A table with these headings.

@@ -31,11 +31,19 @@ impl Facts {
     }
 }
 
-/// Lines as a list.
-pub(super) fn list(lines: impl IntoIterator<Item = impl Render>) -> Markup {
+/// Lines as a list; what stands between back-ticks is code.
+pub(super) fn list(lines: impl IntoIterator<Item = impl AsRef<str>>) -> Markup {
+    let words = |line: &str| {
+        let parts = line.split('`').map(str::to_owned).enumerate();
+        html! {
+            @for (place, part) in parts {
+                @if place % 2 == 1 { code { (part) } } @else { (part) }
+            }
+        }
+    };
     html! {
         ul {
-            @for line in lines { li { (line) } }
+            @for line in lines { li { (words(line.as_ref())) } }
         }
     }
 }

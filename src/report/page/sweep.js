@@ -1,36 +1,38 @@
 // The page of a sweep: the curve, the chosen cycle, loops side by side, the table.
 
 function start(data) {
-  const { quantities, frequency } = data;
+  const { quantities, over, varied } = data;
   const [, , , , degrees] = quantities.find(([column]) => column === "phase_lag_rad");
-  const named = new Set(data.varied.filter((v) => v.named).map((v) => v.column));
+  const named = new Set(varied.filter((v) => v.named).map((v) => v.column));
   const { columns, rows } = parseCsv(data.csv, named);
   const results = new Map(data.cases.map((c) => [c.index, c]));
-  const omegaText = (row) => `${trimmed(significant(row[frequency.column]))} ${frequency.unit}`;
-  const { varied } = data;
+  /** Of what varies: its number in the unit in which it is told, and that with the unit. */
+  const numberOf = ({ column, zero, factor }, row) => factor * (row[column] - zero);
+  const told = (of, row) => {
+    if (of.named) return row[of.column];
+    if (PREFIXED.has(of.unit)) return trimmed(withUnit(numberOf(of, row), of.unit));
+    return `${trimmed(significant(numberOf(of, row)))}${of.unit === "°" ? "" : " "}${of.unit}`.trim();
+  };
+  const place = (row) => numberOf(over, row);
+  const placeText = (row) => told(over, row);
+  const abscissa = () => ({ label: over.label, name: over.name, unit: over.unit, log: $("log-x").checked });
   const key = (row) => JSON.stringify(varied.map(({ column }) => row[column]));
   const drives = [...new Map(rows.map((row) => [key(row), row])).values()];
   const byKey = new Map(drives.map((row) => [key(row), []]));
   for (const row of rows) byKey.get(key(row)).push(row);
-  const driveText = (row) => {
-    const one = ({ column, unit, zero, factor, named }) => {
-      if (named) return row[column];
-      if (zero) return `${trimmed(significant(row[column] - zero))} ${unit}`;
-      return trimmed(factor === 1 ? withUnit(row[column], unit) : significant(factor * row[column]) + unit);
-    };
-    return varied.map(one).join(", ");
-  };
+  for (const list of byKey.values()) list.sort((a, b) => place(a) - place(b));
+  const driveText = (row) => varied.map((of) => told(of, row)).join(", ");
   const branchNames = Array.from({ length: data.branches }, (_, k) => {
     const time = data.retardation_times_s[k];
     return time === undefined ? `branch ${k + 1}` : `branch of ${withUnit(time, "s")}`;
   });
-  const rowName = (row) => omegaText(row) + (drives.length > 1 ? `, ${driveText(row)}` : "");
+  const rowName = (row) => placeText(row) + (drives.length > 1 ? `, ${driveText(row)}` : "");
   const has = (row) => row.energy_loss_j !== null;
   const done = rows.filter(has);
   const loss = (row) => row.energy_loss_j;
   const best = done.reduce((a, b) => (a && loss(a) >= loss(b) ? a : b), null);
   const state = { chosen: best, drive: key(best || rows[0] || {}), kept: new Set(spread(done, best)) };
-  const ofDrive = () => done.filter((row) => key(row) === state.drive);
+  const ofDrive = () => (byKey.get(state.drive) || []).filter(has);
 
   /** At most five, ends and largest loss among them. */
   function spread(all, largest) {
@@ -68,7 +70,7 @@ function start(data) {
     const shown = drives.map((drive) => byKey.get(key(drive)));
     const series = shown.map((list, k) => ({
       name: drives.length > 1 ? driveText(list[0]) : name,
-      x: list.map((row) => row[frequency.column]),
+      x: list.map(place),
       y: list.map((row) => times(row[column])),
       err: key(list[0]) === state.drive ? list.map((row) => times(row[error])) : undefined,
       marker: key(list[0]) === state.drive ? 3 : 0,
@@ -78,9 +80,9 @@ function start(data) {
     const at = shown.findIndex((list) => list.includes(state.chosen));
     const isLoss = column === "energy_loss_j";
     plot($("curve"), {
-      label: `${name} over ${frequency.quantity}`, slider: true, series, height: Math.min(420, Math.max(260, innerHeight * 0.5)),
-      x: { ...frequency, log: $("log-x").checked }, y: { label: name, unit, log: $("log-y").checked, zero: isLoss },
-      marks: isLoss ? data.peaks.map((p) => ({ x: p.angular_frequency_rad_per_s * frequency.factor, y: p.energy_loss_j })) : [],
+      label: `${name} over ${over.label}`, slider: true, series, height: Math.min(420, Math.max(260, innerHeight * 0.5)),
+      x: abscissa(), y: { label: name, unit, log: $("log-y").checked, zero: isLoss },
+      marks: isLoss ? data.peaks.map((p) => ({ x: place(p), y: p.energy_loss_j })) : [],
       chosen: state.chosen && at >= 0 ? { series: at, i: shown[at].indexOf(state.chosen) } : null,
       none: "No case has a result: there is nothing to draw.",
       byArea: drives.length > 1,
@@ -94,14 +96,14 @@ function start(data) {
     if (!state.chosen) return;
     host.setAttribute("aria-valuemax", String(Math.max(0, list.length - 1)));
     host.setAttribute("aria-valuenow", String(list.indexOf(state.chosen)));
-    host.setAttribute("aria-valuetext", `${omegaText(state.chosen)}: ${name} ${withUnit(times(state.chosen[column]), unit)}`);
+    host.setAttribute("aria-valuetext", `${placeText(state.chosen)}: ${name} ${withUnit(times(state.chosen[column]), unit)}`);
   }
 
   function fillCases() {
-    const some = rows.filter((row) => key(row) === state.drive);
+    const some = byKey.get(state.drive) || [];
     $("case").innerHTML = some.map((row) => {
       const why = has(row) ? withUnit(loss(row), "J") : `no result: ${row.message || row.status}`;
-      return `<option value="${row.index}"${has(row) ? "" : " disabled"}${row === state.chosen ? " selected" : ""}>${esc(`${omegaText(row)} (${why})`)}</option>`;
+      return `<option value="${row.index}"${has(row) ? "" : " disabled"}${row === state.chosen ? " selected" : ""}>${esc(`${placeText(row)} (${why})`)}</option>`;
     }).join("");
     for (const line of document.querySelectorAll("#cases tbody tr")) {
       const isChosen = state.chosen && Number(line.dataset.index) === state.chosen.index;
@@ -124,7 +126,7 @@ function start(data) {
     }
     const period = cycle.time_s[cycle.time_s.length - 1];
     const part = cycle.time_s.map((t) => t / period);
-    const over = { label: "time / period", name: "t/T" };
+    const ofPeriod = { label: "time / period", name: "t/T" };
     plot($("loop"), {
       label: `Load against approach at ${rowName(row)}`, byArea: true,
       x: { label: "approach δ", name: "δ", unit: "m" }, y: { label: "load W", name: "W", unit: "N" },
@@ -136,12 +138,12 @@ function start(data) {
     };
     plot($("phase"), {
       label: `Load and approach over the cycle, each between its extremes; the approach lags by ${withUnit(row.phase_lag_rad * degrees, "°")}`,
-      x: over, y: { label: "between extremes", name: "value" },
+      x: ofPeriod, y: { label: "between extremes", name: "value" },
       series: [{ name: "load", x: part, y: signal(cycle.load_n) }, { name: "approach", x: part, y: signal(cycle.approach_m), dash: 1 }],
     });
-    plot($("radius"), { label: "Contact radius over the cycle", x: over, y: { label: "contact radius a", name: "a", unit: "m" }, series: [{ name: "contact radius", x: part, y: cycle.contact_radius_m, colour: 2 }] });
+    plot($("radius"), { label: "Contact radius over the cycle", x: ofPeriod, y: { label: "contact radius a", name: "a", unit: "m" }, series: [{ name: "contact radius", x: part, y: cycle.contact_radius_m, colour: 2 }] });
     plot($("pressure"), {
-      label: "Peak pressure over the cycle", x: over, y: { label: "peak pressure", name: "p", unit: "Pa" },
+      label: "Peak pressure over the cycle", x: ofPeriod, y: { label: "peak pressure", name: "p", unit: "Pa" },
       series: [{ name: "peak pressure", x: part, y: cycle.peak_pressure_pa, colour: 3 }], none: "unbounded: the indenter has an apex or a sharp edge",
     });
     const relative = (k) => cycle.harmonics.map((h) => (cycle.harmonics[0][k] > 0 ? h[k] / cycle.harmonics[0][k] : null)).slice(1);
@@ -190,10 +192,10 @@ function start(data) {
     else plot($("profile"), { label: "Contact pressure", x: {}, y: {}, series: [], none: "no pressure is recorded" });
     $("profile-y-part").hidden = !across;
     if (across) drawPressure("profile-y", across, pressure.instants, period);
-    const over = work.along === "r" ? "distance from the axis r" : "position x";
+    const along = work.along === "r" ? "distance from the axis r" : "position x";
     plot($("work"), {
       label: `Work of the indenter on the surface per area and cycle, ${work.line}`,
-      x: { label: over, name: work.along, unit: "m" }, y: { label: "work density", unit: "J/m²", zero: true },
+      x: { label: along, name: work.along, unit: "m" }, y: { label: "work density", unit: "J/m²", zero: true },
       series: [{ name: "work density", x: work.position_m, y: work.density_j_per_m2, colour: 1 }], none: "no work is done",
     });
     const through = line && line.along === "x" ? ", on the cells along the axes through the centre" : "";
@@ -243,14 +245,14 @@ function start(data) {
   }
 
   function drawBranches() {
-    const list = rows.filter((row) => key(row) === state.drive);
+    const list = byKey.get(state.drive) || [];
     const count = data.branches;
     $("branches-section").hidden = !count || !done.length;
     if (!count) return;
-    const x = list.map((row) => row[frequency.column]);
+    const x = list.map(place);
     plot($("branches"), {
-      label: `Energy dissipated per cycle by each branch over ${frequency.quantity}`, legend: true,
-      x: { ...frequency, log: $("log-x").checked }, y: { label: "dissipated per cycle", unit: "J", zero: true, log: $("log-y").checked },
+      label: `Energy dissipated per cycle by each branch over ${over.label}`, legend: true,
+      x: abscissa(), y: { label: "dissipated per cycle", unit: "J", zero: true, log: $("log-y").checked },
       series: [
         ...branchNames.map((name, k) => ({ name, x, y: list.map((row) => row[`branch_${k + 1}_loss_j`]), marker: 2 })),
         ...(count > 1 ? [{ name: "all", x, y: list.map((row) => row.dissipated_j), colour: 6, dash: 1 }] : []),
@@ -266,8 +268,8 @@ function start(data) {
   $("normalised").addEventListener("change", drawLoops);
   $("drive").addEventListener("change", () => {
     state.drive = $("drive").value;
-    const omega = state.chosen ? state.chosen.angular_frequency_rad_per_s : 0;
-    const away = (row) => Math.abs(Math.log(row.angular_frequency_rad_per_s / omega));
+    const from = state.chosen ? place(state.chosen) : 0;
+    const away = (row) => Math.abs($("log-x").checked ? Math.log(place(row) / from) : place(row) - from);
     const list = ofDrive();
     if (list.length) choose(list.reduce((a, b) => (away(a) <= away(b) ? a : b)));
     else { fillCases(); drawCurve(); }
@@ -288,7 +290,7 @@ function start(data) {
   if (done.length) {
     curve.tabIndex = 0;
     curve.setAttribute("role", "slider");
-    curve.setAttribute("aria-label", "Angular frequency");
+    curve.setAttribute("aria-label", over.label);
     curve.setAttribute("aria-valuemin", "0");
     const moves = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -5, PageUp: 5, Home: -1e9, End: 1e9 };
     curve.addEventListener("keydown", (event) => {

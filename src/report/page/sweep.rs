@@ -3,9 +3,12 @@
 use maud::{Markup, html};
 
 use super::{FIGURES, Pictures, answer, cases_table, how, moduli, question, scroll, section};
+use crate::report::chart::Scale;
+use crate::report::figure::curve::Abscissa;
+use crate::report::figure::plot::Spread;
 use crate::report::rigid_indenter;
 use crate::report::warnings;
-use crate::sweep::plan::{Block, SweepPlan, Varied};
+use crate::sweep::plan::{AxisValue, Block, SweepPlan};
 use crate::sweep::search::run::Outcome;
 
 const NOTHING: &str = "No case has a result: there is nothing to draw.";
@@ -29,7 +32,7 @@ pub(super) fn sections(
             div id="branches" class="plot tall" {}
         }
         (pictures.gallery(&FIGURES))
-        (all_frequencies(plan, shown, outcome.records.len()))
+        (all_cases(plan, shown, outcome.records.len()))
         (section("asked-heading", "What was asked", html! {
             (question::sweep(plan))
             h3 class="live" { "Moduli of " (of_which(plan)) }
@@ -48,7 +51,14 @@ fn of_which(plan: &SweepPlan) -> &str {
 
 fn curve(plan: &SweepPlan, outcome: &Outcome, pictures: &Pictures) -> Markup {
     let over = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
-    let varied: Vec<String> = over.iter().map(Varied::name).collect();
+    let abscissa = Abscissa::of(plan);
+    let (name, is_log) = match abscissa {
+        Abscissa::Frequency => (plan.figures.frequency_unit.symbol().to_string(), true),
+        Abscissa::Axis(axis) => (over[axis].name(), is_spread(plan, axis)),
+    };
+    let others = over.iter().enumerate();
+    let others = others.filter(|(axis, _)| abscissa != Abscissa::Axis(*axis));
+    let varied: Vec<String> = others.map(|(_, varied)| varied.name()).collect();
     let varied = varied.join(", ");
     html! {
         section aria-labelledby="answer" class="answer" {
@@ -62,18 +72,25 @@ fn curve(plan: &SweepPlan, outcome: &Outcome, pictures: &Pictures) -> Markup {
             div class="live controls" role="group" aria-label="Curve" id="curve-controls" {
                 label { "Curve of " select id="quantity" {} }
                 label id="drive-choice" hidden { (varied) " " select id="drive" {} }
-                label { input type="checkbox" id="log-x" checked; " log " (plan.figures.frequency_unit.symbol()) }
+                label { input type="checkbox" id="log-x" checked[is_log]; " log " (name) }
                 label { input type="checkbox" id="log-y"; " log values" }
             }
             div id="curve" class="live plot tall" {}
             p class="live hint" {
                 span id="bars" {}
                 " Rings mark the peaks. Click a point, or use the arrow keys on the curve or the list below, to choose a \
-                 frequency."
+                 case."
             }
             (pictures.still("energy-loss", NOTHING))
         }
     }
+}
+
+/// Whether the values of an axis are seen together on a logarithmic scale alone.
+fn is_spread(plan: &SweepPlan, axis: usize) -> bool {
+    let conditions = plan.conditions().iter();
+    let values = conditions.filter_map(|condition| condition.values.get(axis));
+    Spread::of_values(values.map(AxisValue::as_number).collect()) == Scale::Log
 }
 
 /// One cycle, which the script fills.
@@ -88,10 +105,10 @@ fn cycle() -> Markup {
     ];
     html! {
         section aria-labelledby="cycle-heading" class="live" id="cycle" {
-            h2 id="cycle-heading" { "The cycle at one frequency" }
-            div class="controls" role="group" aria-label="Choice of the frequency" id="case-controls" {
+            h2 id="cycle-heading" { "The cycle of one case" }
+            div class="controls" role="group" aria-label="Choice of the case" id="case-controls" {
                 button type="button" id="previous" { "← Lower" }
-                label { "Frequency " select id="case" {} }
+                label { "Case " select id="case" {} }
                 button type="button" id="next" { "Higher →" }
                 button type="button" id="keep" { "Keep this loop" }
             }
@@ -106,7 +123,7 @@ fn cycle() -> Markup {
             }
             p class="hint" id="lines-how" {}
             h3 { "Its numbers" }
-            section class="scroll" tabindex="0" aria-label="Numbers of the chosen frequency" {
+            section class="scroll" tabindex="0" aria-label="Numbers of the chosen case" {
                 table id="facts" {
                     thead {
                         tr {
@@ -135,7 +152,7 @@ fn loops(pictures: &Pictures) -> Markup {
     section("loops-heading", "Loops side by side", content)
 }
 
-fn all_frequencies(plan: &SweepPlan, outcome: &Outcome, all: usize) -> Markup {
+fn all_cases(plan: &SweepPlan, outcome: &Outcome, all: usize) -> Markup {
     let shown = outcome.records.len();
     let content = html! {
         @if plan.is_small() {
@@ -156,5 +173,5 @@ fn all_frequencies(plan: &SweepPlan, outcome: &Outcome, all: usize) -> Markup {
         }
         (scroll("Table", cases_table::table(plan, outcome)))
     };
-    section("table-heading", "All frequencies", content)
+    section("table-heading", "All cases", content)
 }

@@ -6,9 +6,12 @@ use super::cases_table::{self, ShownColumn};
 use super::compact::{all_rounded, picked, picked_optional, rounded, spread};
 use super::surface_data::{Fineness, PressureData, WorkData, share};
 use crate::cycle::Loop;
+use crate::drive::Control;
 use crate::material::{Material, MaterialFunction};
 use crate::quantity::{Dimension, FrequencyUnit, ZERO_CELSIUS_K};
+use crate::report::figure::curve::Abscissa;
 use crate::report::figure::moduli::ModulusPoint;
+use crate::report::figure::plot::Quantity;
 use crate::report::material::MaterialReport;
 use crate::report::quantities::{Column, SWEEP};
 use crate::report::words::nodes_name;
@@ -26,12 +29,13 @@ pub(super) struct SweepData<'a> {
     csv: &'a str,
     /// What has a curve.
     quantities: Vec<QuantityData>,
-    frequency: FrequencyData,
+    /// What the curves are over: the frequency, or, where there is but one, the first axis of numbers.
+    over: VariedData,
     peaks: &'a [Peak],
     branches: usize,
     /// Of every curve; empty where they have different ones.
     retardation_times_s: Vec<f64>,
-    /// What other axes than the frequency vary.
+    /// What else varies, in which a curve differs from another.
     varied: Vec<VariedData>,
     drive_unit: &'static str,
     node_name: &'static str,
@@ -42,20 +46,22 @@ pub(super) struct SweepData<'a> {
     table: Vec<ShownColumn>,
 }
 
-/// The column of what an axis varies, and the unit in which it is told, of which zero lies at so many SI units.
+/// A column of `sweep.csv` that varies, and how it is told: what its axis is called, what stands before a value, and its unit.
 #[derive(Serialize)]
 struct VariedData {
     column: String,
+    label: String,
+    name: String,
     unit: &'static str,
+    /// Where the zero of that unit lies (SI), and the factor from SI to it.
     zero: f64,
-    /// From the SI unit to the one that is told.
     factor: f64,
     /// Whether its cells are names.
     named: bool,
 }
 
 impl VariedData {
-    fn of(varied: &Varied) -> Self {
+    fn of(varied: &Varied, control: Control) -> Self {
         let (unit, zero, factor) = match varied.dimension {
             Some(Dimension::Temperature) => ("°C", ZERO_CELSIUS_K, 1.0),
             Some(Dimension::Angle) => ("°", 0.0, 1_f64.to_degrees()),
@@ -64,23 +70,47 @@ impl VariedData {
         };
         Self {
             column: varied.column(),
+            label: Quantity::varied(varied, control).words.into_owned(),
+            name: varied.name(),
             unit,
             zero,
             factor,
             named: varied.is_whole(),
         }
     }
+
+    fn frequency(unit: FrequencyUnit) -> Self {
+        Self {
+            column: FrequencyUnit::RadPerS.column().to_owned(),
+            label: format!("{} {}", unit.quantity(), unit.symbol()),
+            name: unit.symbol().to_string(),
+            unit: unit.name(),
+            zero: 0.0,
+            factor: unit.of(1.0),
+            named: false,
+        }
+    }
+
+    /// What the curves of a sweep are over, and what else varies.
+    fn of_sweep(plan: &SweepPlan) -> (Self, Vec<Self>) {
+        let axes = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
+        let control = plan.base.drive.control();
+        let mut varied: Vec<Self> = axes.iter().map(|axis| Self::of(axis, control)).collect();
+        let over = match Abscissa::of(plan) {
+            Abscissa::Frequency => Self::frequency(plan.figures.frequency_unit),
+            Abscissa::Axis(axis) => varied.remove(axis),
+        };
+        (over, varied)
+    }
 }
 
-/// What the axis of frequencies is called, its column in `sweep.csv`, and the factor to it from rad/s.
+/// What an axis of frequencies is called.
 #[derive(Serialize)]
 pub(super) struct FrequencyData {
     label: String,
     quantity: &'static str,
     name: char,
     unit: &'static str,
-    column: &'static str,
-    factor: f64,
 }
 
 impl FrequencyData {
@@ -90,8 +120,6 @@ impl FrequencyData {
             quantity: unit.quantity(),
             name: unit.symbol(),
             unit: unit.name(),
-            column: unit.column(),
-            factor: unit.of(1.0),
         }
     }
 }
@@ -128,17 +156,16 @@ impl<'a> SweepData<'a> {
             .filter_map(|r| Some((r, r.result.as_ref()?)));
         let held = results.filter(|(_, result)| result.cycle.is_held());
         let count = held.clone().count();
+        let (over, varied) = VariedData::of_sweep(plan);
         Self {
             kind: "sweep",
             csv,
             quantities: SWEEP.iter().filter_map(quantity).collect(),
-            frequency: FrequencyData::of(plan.figures.frequency_unit),
+            over,
             peaks: &outcome.peaks,
             branches: outcome.branches(),
             retardation_times_s: all_rounded(&outcome.retardation_times_s()),
-            varied: (plan.axes.iter().flat_map(|axes| &axes.over))
-                .map(VariedData::of)
-                .collect(),
+            varied,
             drive_unit: plan.base.drive.control().unit(),
             node_name: match plan.base.contact.indenter.own_cells() {
                 Some(_) => "cells along the longer side of the map",
