@@ -293,7 +293,6 @@ mod tests {
         let mut chart = rising().mark(Mark::point(60.0, 1.0, "peak"));
         chart.x = chart.x.range(0.0, 50.0);
         let error = arrange(&chart).err().unwrap();
-        assert!(matches!(error, ChartError::MarkOutside { .. }));
         assert!(
             error.to_string().contains("the mark 'peak': its x 60"),
             "{error}"
@@ -304,7 +303,8 @@ mod tests {
     fn data_that_a_given_range_leaves_out_altogether_are_refused() {
         let mut chart = rising();
         chart.x = chart.x.range(100.0, 200.0);
-        assert!(matches!(arrange(&chart), Err(ChartError::Empty { .. })));
+        let error = arrange(&chart).err().unwrap().to_string();
+        assert!(error.contains("there is no point to show"), "{error}");
     }
 
     #[test]

@@ -58,10 +58,10 @@ impl Bar {
         };
         let (low, high) = range;
         if low >= high || !(high - low).is_finite() {
-            return Err(ChartError::Map {
-                map: name.clone(),
-                reason: "the first end of the value range must be below the second",
-            });
+            return Err(ChartError::item(
+                format!("the map of {name}"),
+                "the first end of the value range must be below the second",
+            ));
         }
         let along = AxisMap::new(scale, range, (bottom, top));
         let least = ((bottom - top) / 9.0).max(1.6 * TICK_TEXT);

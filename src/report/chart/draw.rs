@@ -24,7 +24,7 @@ impl Chart {
 /// label of all but the last empty, and the frames, which are in line, move together.
 ///
 /// # Errors
-/// [`ChartError::EmptyStack`] without a chart; otherwise as [`Chart::draw`].
+/// [`ChartError::Item`] without a chart; otherwise as [`Chart::draw`].
 pub fn stack(charts: &[Chart]) -> Result<Drawing, ChartError> {
     let charts = charts.iter().map(heat_map::to_scale);
     let charts: Vec<Cow<'_, Chart>> = charts.collect::<Result<_, _>>()?;
@@ -36,7 +36,7 @@ pub fn stack(charts: &[Chart]) -> Result<Drawing, ChartError> {
     }
     let width_px = charts.iter().map(|chart| chart.size.width_px).max();
     let mut size = Size {
-        width_px: width_px.ok_or(ChartError::EmptyStack)?,
+        width_px: width_px.ok_or_else(|| ChartError::item("no charts", "give at least one"))?,
         height_px: 0,
     };
     let (mut drawn, mut layers, mut notes) = (Vec::new(), Vec::new(), Notes::default());
@@ -126,6 +126,6 @@ mod tests {
         let (first, second) = stacked.split_at(alone.len());
         assert_eq!(alone, first);
         assert_ne!(lefts(&both[1..]), second);
-        assert!(matches!(stack(&[]), Err(ChartError::EmptyStack)));
+        assert!(matches!(stack(&[]), Err(ChartError::Item { .. })));
     }
 }

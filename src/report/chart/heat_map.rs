@@ -97,24 +97,19 @@ impl HeatMap {
 
     /// The values at the ends of the colour bar of the map, which errors call `name`.
     pub(super) fn checked_range(&self, name: &str) -> Result<(f64, f64), ChartError> {
-        let map = || name.to_owned();
-        let refuse = |reason| Err(ChartError::Map { map: map(), reason });
+        let refuse = |reason: &str| Err(ChartError::item(format!("the map of {name}"), reason));
         let (columns, rows) = (self.columns, self.rows);
         if columns.checked_mul(rows) != Some(self.values.len()) {
-            return Err(ChartError::CellCount {
-                map: map(),
-                found: self.values.len(),
-                columns,
-                rows,
-            });
+            let found = self.values.len();
+            return refuse(&format!(
+                "there are {found} values for {columns} columns and {rows} rows; give one per cell, None where there is none"
+            ));
         }
         let values = || self.values.iter().flatten().copied();
         if let Some(value) = values().find(|value| !value.is_finite()) {
-            return Err(ChartError::NotFinite {
-                item: format!("the map of {name}"),
-                quantity: "value",
-                value,
-            });
+            return refuse(&format!(
+                "a value is {value}, which is not a finite number; where a value is absent, leave it out (None)"
+            ));
         }
         let (least, largest) = range(values());
         if least > largest {
@@ -439,31 +434,30 @@ mod tests {
         assert!((layout.x.px(10.0) - middle).abs() < 1e-9); // rounding
         assert!(chart_of_map.draw().is_ok());
         map.values[1] = Some(0.0);
-        assert!(matches!(chart(&map).draw(), Err(ChartError::Map { .. })));
+        refused(&map, "colours on a logarithmic scale begin above zero");
+    }
+
+    #[track_caller]
+    fn refused(map: &HeatMap, why: &str) {
+        let error = chart(map.clone()).draw().unwrap_err().to_string();
+        assert!(error.contains(why), "{error}");
     }
 
     #[test]
     fn maps_that_cannot_be_drawn_are_refused() {
-        let mut short = dome(3, 3);
-        short.values.pop();
-        assert!(matches!(
-            chart(short).draw(),
-            Err(ChartError::CellCount { found: 8, .. })
-        ));
-        let mut nan = dome(3, 3);
-        nan.values[4] = Some(f64::NAN);
-        assert!(matches!(
-            chart(nan).draw(),
-            Err(ChartError::NotFinite { .. })
-        ));
-        let mut blank = dome(3, 3);
-        blank.values.fill(None);
-        assert!(matches!(chart(blank).draw(), Err(ChartError::Map { .. })));
-        let mut upside_down = dome(3, 3);
-        upside_down.value_range = Some((1.0, 0.0));
-        assert!(matches!(
-            chart(upside_down).draw(),
-            Err(ChartError::Map { .. })
-        ));
+        let mut map = dome(3, 3);
+        map.values.pop();
+        refused(&map, "8 values for 3 columns and 3 rows");
+        let mut map = dome(3, 3);
+        map.values[4] = Some(f64::NAN);
+        refused(&map, "a value is NaN");
+        map.values.fill(None);
+        refused(&map, "every cell is blank");
+        let mut map = dome(3, 3);
+        map.value_range = Some((1.0, 0.0));
+        refused(
+            &map,
+            "the first end of the value range must be below the second",
+        );
     }
 }

@@ -8,7 +8,7 @@ use super::scale::{AxisMap, Room, range};
 use super::text::{ASCENT_EM, Anchor, width_em};
 use super::ticks::{self, Tick, Ticks};
 use super::titles::{LEAST_SHARE_OF_SIZE, Lines, PITCH_EM, Phrase};
-use super::{AxisName, Chart, ChartError, Mark, MarkPlace, Scale, Series};
+use super::{Chart, ChartError, Mark, MarkPlace, Scale, Series};
 use crate::report::number;
 
 /// The frame with its axes, and the texts around it.
@@ -359,8 +359,8 @@ pub(super) fn ranges(chart: &Chart, head_room: f64) -> Result<Ranges, ChartError
         reach_zero: 0.3,
     };
     let ranges = Ranges {
-        x: range(&chart.x, AxisName::X, xs, x_room)?,
-        y: range(&chart.y, AxisName::Y, ys, y_room)?,
+        x: range(&chart.x, "x", xs, x_room)?,
+        y: range(&chart.y, "y", ys, y_room)?,
     };
     check_marks_inside(chart, &ranges)?;
     Ok(ranges)
@@ -410,16 +410,15 @@ fn is_plain_function(series: &Series) -> bool {
 fn check_marks_inside(chart: &Chart, ranges: &Ranges) -> Result<(), ChartError> {
     for mark in &chart.marks {
         let (x, y) = mark.place.coordinates();
-        for (value, (low, high), axis) in [(x, ranges.x, AxisName::X), (y, ranges.y, AxisName::Y)] {
+        for (value, (low, high), axis) in [(x, ranges.x, "x"), (y, ranges.y, "y")] {
             if let Some(value) = value.filter(|value| !(low..=high).contains(value)) {
                 let mark = mark_name(mark);
-                return Err(ChartError::MarkOutside {
+                return Err(ChartError::item(
                     mark,
-                    axis,
-                    value,
-                    low,
-                    high,
-                });
+                    format!(
+                        "its {axis} {value} is outside the axis, {low} to {high}; widen the range or leave the mark out"
+                    ),
+                ));
             }
         }
     }

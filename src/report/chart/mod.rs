@@ -67,7 +67,7 @@ mod titles;
 pub use color_scale::ColorScale;
 pub use draw::stack;
 pub use drawing::Drawing;
-pub use error::{AxisName, ChartError};
+pub use error::ChartError;
 pub use fitting::{fits, fitting_height_px};
 pub use heat_map::{HeatMap, MapShape};
 pub use ink::Overlap;

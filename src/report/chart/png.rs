@@ -39,10 +39,7 @@ impl Drawing {
         let is_large = u64::from(width) * u64::from(height) > MANY_PIXELS;
         // Until it is encoded, which takes as much memory again.
         let _alone = is_large.then(|| ONE_LARGE.lock().unwrap_or_else(PoisonError::into_inner));
-        let refused = || ChartError::PixelScale {
-            scale,
-            reason: NO_PICTURE,
-        };
+        let refused = || at_scale(scale, NO_PICTURE);
         let pixmap = Pixmap::new(width, height).ok_or_else(refused)?;
         self.encode(self.painted(pixmap), pixels_per_metre)
             .map_err(|error| ChartError::internal("write the PNG of", error))
@@ -50,7 +47,7 @@ impl Drawing {
 
     /// Width and height.
     fn size_in_pixels(&self, scale: f64) -> Result<(u32, u32), ChartError> {
-        let refused = |reason| ChartError::PixelScale { scale, reason };
+        let refused = |reason| at_scale(scale, reason);
         if !(scale.is_finite() && scale > 0.0) {
             return Err(refused("give a finite number above zero, such as 1 or 2"));
         }
@@ -152,6 +149,10 @@ fn paint(shape: &Shape, stretch: Transform, pixmap: &mut Pixmap) {
             pixmap.stroke_path(&shape.path, &brush, &stroke, stretch, None);
         }
     }
+}
+
+fn at_scale(scale: f64, reason: &str) -> ChartError {
+    ChartError::item(format!("pixels at scale {scale}"), reason)
 }
 
 #[cfg(test)]
@@ -275,7 +276,7 @@ mod tests {
         let drawing = chart().draw().unwrap();
         for scale in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e-6, 1e6] {
             assert!(
-                matches!(drawing.to_png(scale), Err(ChartError::PixelScale { .. })),
+                matches!(drawing.to_png(scale), Err(ChartError::Item { .. })),
                 "{scale}"
             );
         }
