@@ -323,10 +323,10 @@ fn a_scenario_prints_its_end_and_leaves_every_file() {
     let figures = "figures/history.svg figures/history@2x.png figures/profiles.svg figures/profiles.png figures/profiles.csv";
     place.has_all("reports/small", figures);
     // The figure of load against approach tells the work as the terminal does.
-    let work = said
+    let mut work = said
         .lines()
         .filter_map(|line| line.trim().strip_prefix("Work of the indenter: "));
-    let work = work.last().unwrap().split(';').next().unwrap();
+    let work = work.next().unwrap().split(';').next().unwrap();
     let caption = read("figures/load-approach.caption.txt");
     let told = format!("the integral of W over δ along the path, is {work};");
     assert!(caption.contains(&told), "{caption} {told}");

@@ -81,7 +81,7 @@ pub(super) fn choose(scale: Scale, low: f64, high: f64, fits: impl Fn(&[Tick]) -
     };
     (choices().find(has_room))
         .or_else(|| choices().map(ends).rev().find(has_room))
-        .or_else(|| choices().last())
+        .or_else(|| choices().next_back())
         .unwrap_or_else(|| with_at_most(2))
 }
 

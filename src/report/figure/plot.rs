@@ -318,6 +318,9 @@ pub struct Plot {
     pub height_px: Option<u32>,
 }
 
+/// A line as it is drawn, in SI units; `None` breaks it.
+type Drawn = Vec<Option<(f64, f64)>>;
+
 impl Plot {
     pub fn new(x: Quantity, y: Quantity) -> Self {
         Self {
@@ -466,7 +469,7 @@ impl Plot {
         trace: &Trace,
         heights: &[Option<f64>],
         [x, y]: [Scale; 2],
-    ) -> Option<(Vec<Option<(f64, f64)>>, bool)> {
+    ) -> Option<(Drawn, bool)> {
         let on = |scale: Scale, value: f64| match scale {
             Scale::Log => (value > 0.0).then(|| value.log10()),
             Scale::Linear => Some(value),
