@@ -3,8 +3,8 @@
 use maud::{Markup, PreEscaped, Render, html};
 
 use super::claim::{COLUMNS, rows};
-use super::readme::{EXPLANATION, disagreeing};
-use super::statement::counted;
+use super::readme::EXPLANATION;
+use super::statement::{self, Judged, counted, disagreeing};
 use super::{Figure, ReproductionError, SCENARIOS, SWEEPS};
 use crate::report::page::Pictures;
 use crate::report::page::frame::{Frame, Input};
@@ -24,7 +24,7 @@ pub(super) fn page(
             p class="peaks" { (counted(figures)) "." }
             (disagreements(figures))
             h3 { "Statement by statement" }
-            section class="scroll" tabindex="0" aria-label="Statements, may be scrolled" { (contents(figures)) }
+            (contents(figures))
         }
         section aria-labelledby="reading-heading" {
             h2 id="reading-heading" { "How to read the numbers" }
@@ -95,47 +95,22 @@ fn disagreements(figures: &[Figure]) -> Markup {
 
 /// What the paper states, figure by figure.
 fn contents(figures: &[Figure]) -> Markup {
-    let statements = figures.iter().flat_map(|figure| {
-        let statements = figure.statements.iter().enumerate();
-        statements.map(move |(place, statement)| (figure, place == 0, statement))
+    let [paper, kind, verdict] = Judged::COLUMNS;
+    let rows = statement::all(figures).map(|(figure, one)| {
+        let link = html! { a href={ "#" (figure.name()) } { "Figure " (figure.number) } };
+        let cells = one.cells().map(readable);
+        (None, [vec![link], cells.to_vec()].concat())
     });
-    html! {
-        table class="claims" {
-            thead {
-                tr {
-                    @for heading in ["figure", "the paper states", "kind", "verdict"] {
-                        th scope="col" class="text" { (heading) }
-                    }
-                }
-            }
-            tbody {
-                @for (figure, is_first, statement) in statements {
-                    tr {
-                        th scope="row" {
-                            @if is_first {
-                                a href={ "#" (figure.name()) } { "Figure " (figure.number) }
-                            } @else {
-                                "Figure " (figure.number)
-                            }
-                        }
-                        td class="text wide" { (readable(&statement.paper)) }
-                        td class="text" { (if statement.is_number { "number" } else { "words" }) }
-                        td class="text" { (statement.verdict.name()) }
-                    }
-                }
-            }
-        }
-    }
+    table("Statements", &["figure", paper, kind, verdict], rows)
 }
 
 fn section(figure: &Figure, pictures: &Pictures) -> Markup {
-    // Columns of words stand on the left.
-    let classes = COLUMNS.map(|(column, _)| match column {
-        "quantity" | "verdict" => Some("text"),
-        "the paper" | "note" => Some("text wide"),
-        _ => None,
-    });
     let (name, number) = (figure.name(), figure.number);
+    let claims = figure.claims.iter().zip(rows(&figure.claims));
+    let claims = claims.map(|(claim, cells)| {
+        let cells = cells.iter().map(|cell| readable(cell)).collect();
+        (Some(claim.judged().name()), cells)
+    });
     html! {
         section aria-labelledby=(name) class="reproduced" {
             h2 id=(name) { "Figure " (number) }
@@ -143,22 +118,31 @@ fn section(figure: &Figure, pictures: &Pictures) -> Markup {
                 @if let Some(picture) = pictures.inline(&name) { (picture) }
             }
             p { (readable(&figure.caption)) }
-            section class="scroll" tabindex="0" aria-label={ "Numbers of figure " (number) ", may be scrolled" } {
-                table class="claims" {
-                    thead {
-                        tr {
-                            @for ((column, _), class) in COLUMNS.iter().zip(classes) {
-                                th scope="col" class=[class] { (column) }
-                            }
-                        }
-                    }
-                    tbody {
-                        @for (claim, cells) in figure.claims.iter().zip(rows(&figure.claims)) {
-                            tr data-verdict=(claim.judged().name()) {
-                                th scope="row" { (readable(&cells[0])) }
-                                @for (cell, class) in cells.iter().zip(classes).skip(1) {
-                                    td class=[class] { (readable(cell)) }
-                                }
+            (table(&format!("Numbers of figure {number}"), &COLUMNS.map(|(column, _)| column), claims))
+        }
+    }
+}
+
+/// A table with the verdicts of its rows, by which they are chosen, where there are any. Columns of words stand on the left.
+fn table(
+    what: &str,
+    headings: &[&str],
+    rows: impl Iterator<Item = (Option<&'static str>, Vec<Markup>)>,
+) -> Markup {
+    let class = |place: usize| match headings[place] {
+        "the paper" | "the paper states" | "note" => Some("text wide"),
+        "figure" | "quantity" | "kind" | "verdict" => Some("text"),
+        _ => None,
+    };
+    html! {
+        section class="scroll" tabindex="0" aria-label={ (what) ", may be scrolled" } {
+            table class="claims" {
+                thead { tr { @for (k, heading) in headings.iter().enumerate() { th scope="col" class=[class(k)] { (heading) } } } }
+                tbody {
+                    @for (verdict, cells) in rows {
+                        tr data-verdict=[verdict] {
+                            @for (k, cell) in cells.iter().enumerate() {
+                                @if k == 0 { th scope="row" { (cell) } } @else { td class=[class(k)] { (cell) } }
                             }
                         }
                     }

@@ -1,41 +1,13 @@
 //! README.md: the figures with their claims, readable where the repository is.
 
+use super::Figure;
 use super::claim::{COLUMNS, rows};
-use super::statement::counted;
-use super::{Figure, Judged, Verdict};
+use super::statement::{Judged, counted, disagreeing};
 
 const OPENING: &str = include_str!("opening.md");
 
 /// How to read the numbers, with `**` and `*`.
 pub(super) const EXPLANATION: &str = include_str!("explanation.md");
-
-/// A sentence for each statement of the paper that disagrees.
-pub(super) fn disagreeing(figures: &[Figure]) -> Vec<String> {
-    let statements = figures.iter().flat_map(|figure| {
-        let statements = figure.statements.iter();
-        statements.map(move |statement| (figure.number, statement))
-    });
-    statements
-        .filter(|(_, statement)| statement.verdict == Verdict::Disagrees)
-        .map(
-            |(
-                number,
-                Judged {
-                    paper,
-                    computed,
-                    note,
-                    ..
-                },
-            )| {
-                let note = match note.is_empty() {
-                    true => String::new(),
-                    false => format!(" ({note})"),
-                };
-                format!("Figure {number}: \u{201c}{paper}\u{201d} Computed: {computed}{note}.")
-            },
-        )
-        .collect()
-}
 
 /// The page: opening, explanation, what disagrees, then figure by figure.
 pub(super) fn text(figures: &[Figure]) -> String {
@@ -46,7 +18,7 @@ pub(super) fn text(figures: &[Figure]) -> String {
     );
     let lines = disagreeing(figures);
     if !lines.is_empty() {
-        text.push_str("\n## What disagrees\n\n");
+        text += "\n## What disagrees\n\n";
         text.extend(lines.iter().map(|line| format!("- {line}\n")));
         let discussions = figures
             .iter()
@@ -62,19 +34,22 @@ fn section(figure: &Figure) -> String {
         number, caption, ..
     } = figure;
     let name = figure.name();
-    let row = |cells: &[&str]| format!("| {} |\n", cells.join(" | "));
-    let statements = figure.statements.iter().map(|statement| {
-        let kind = if statement.is_number { "yes" } else { "" };
-        row(&[&statement.paper, kind, statement.verdict.name()])
-    });
-    let claims = rows(&figure.claims).map(|cells| row(&cells.each_ref().map(|cell| &cell[..])));
+    let statements = figure.statements.iter().map(Judged::cells);
     format!(
         "\n## Figure {number}\n\n![Figure {number}](figures/{name}.png)\n\n{caption} Data: [{name}.csv](figures/{name}.csv); \
-         [SVG](figures/{name}.svg).\n\n{}|---|---|---|\n{}\n{}|{}\n{}",
-        row(&["the paper states", "number", "verdict"]),
-        statements.collect::<String>(),
-        row(&COLUMNS.map(|(column, _)| column)),
-        "---|".repeat(COLUMNS.len()),
-        claims.collect::<String>()
+         [SVG](figures/{name}.svg).\n\n{}\n{}",
+        table(Judged::COLUMNS, statements),
+        table(COLUMNS.map(|(column, _)| column), rows(&figure.claims))
     )
+}
+
+fn table<C: AsRef<str>, const N: usize>(
+    headings: [&str; N],
+    rows: impl Iterator<Item = [C; N]>,
+) -> String {
+    let row = |cells: [&str; N]| format!("| {} |\n", cells.join(" | "));
+    let rows: String = rows
+        .map(|cells| row(cells.each_ref().map(AsRef::as_ref)))
+        .collect();
+    format!("{}|{}\n{rows}", row(headings), "---|".repeat(N))
 }

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::table::{Quantity, Row, instant, points, pressure, row, surface, work};
+use super::table::{Quantity, Row, instant, pressure, row, surface};
 use super::{ReproductionError, Result};
 use crate::contact::surface::Surface;
 use crate::drive::{Segment, SegmentedDrive};
@@ -154,8 +154,8 @@ impl Outcome {
         let first_n = outcome.rows.first().map_or(1.0, |row| row.load_n);
         let relative = |row: &HistoryRow| (Quantity::RelaxationModulus, row.load_n / first_n);
         let instant = |row| instant(row).into_iter().chain([relative(row)]).collect();
-        let instants: Vec<Row> = outcome.rows.iter().map(instant).collect();
-        let energy_j = work(&points(&instants, [Quantity::Load, Quantity::Approach]));
+        let instants = outcome.rows.iter().map(instant).collect();
+        let energy_j = outcome.rows.last().and_then(|row| row.work_j);
         let surfaces = outcome.profiles.iter().map(|profile| &profile.surface);
         Self {
             surfaces: surfaces.clone().map(surface).collect(),

@@ -54,13 +54,51 @@ pub struct Judged {
     pub note: String,
 }
 
+impl Judged {
+    /// Headings of a table of statements, and the row of one.
+    pub(super) const COLUMNS: [&str; 3] = ["the paper states", "kind", "verdict"];
+
+    pub(super) fn cells(&self) -> [&str; 3] {
+        let kind = if self.is_number { "number" } else { "words" };
+        [&self.paper, kind, self.verdict.name()]
+    }
+
+    /// A sentence on one that disagrees, of the figure with this number.
+    pub(super) fn disagreement(&self, figure: u8) -> String {
+        let Self {
+            paper,
+            computed,
+            note,
+            ..
+        } = self;
+        let note = match note.is_empty() {
+            true => String::new(),
+            false => format!(" ({note})"),
+        };
+        format!("Figure {figure}: \u{201c}{paper}\u{201d} Computed: {computed}{note}.")
+    }
+}
+
+/// Every statement with its figure.
+pub(super) fn all<'a>(figures: &'a [Figure]) -> impl Iterator<Item = (&'a Figure, &'a Judged)> {
+    let of = |figure: &'a Figure| std::iter::repeat(figure).zip(&figure.statements);
+    figures.iter().flat_map(of)
+}
+
+/// A sentence for each statement of the paper that disagrees.
+pub(super) fn disagreeing(figures: &[Figure]) -> Vec<String> {
+    let disagree = all(figures).filter(|(_, one)| one.verdict == Verdict::Disagrees);
+    disagree
+        .map(|(figure, one)| one.disagreement(figure.number))
+        .collect()
+}
+
 /// How many statements there are in these figures, numbers and words apart, and how many values besides: `14 numbers of the paper
 /// (9 agree, 5 disagree), 18 statements in words (18 agree); 40 values more are computed ...`.
 pub fn counted(figures: &[Figure]) -> String {
     let tally = |is_number: bool| {
-        let statements = figures.iter().flat_map(|figure| &figure.statements);
-        let of_kind = statements.filter(|statement| statement.is_number == is_number);
-        let verdicts: Vec<Verdict> = of_kind.map(|statement| statement.verdict).collect();
+        let of_kind = all(figures).filter(|(_, one)| one.is_number == is_number);
+        let verdicts: Vec<Verdict> = of_kind.map(|(_, one)| one.verdict).collect();
         let named = [
             (Verdict::Agrees, "agree"),
             (Verdict::Disagrees, "disagree"),

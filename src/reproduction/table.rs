@@ -117,17 +117,6 @@ pub(super) fn points(rows: &[Row], [x, y]: [Quantity; 2]) -> Vec<(f64, f64)> {
     rows.iter().filter_map(point).collect()
 }
 
-/// Integral of W d(delta) over a history from first touch. The jump follows Hertz' curve W ~ delta^(3/2), whose work is two fifths
-/// of load times approach. `None` of no points.
-pub(super) fn work(load_and_approach: &[(f64, f64)]) -> Option<f64> {
-    let jump = load_and_approach.first().map(|(w, d)| 0.4 * w * d)?;
-    let parts = load_and_approach.windows(2).map(|pair| {
-        let [(w0, d0), (w1, d1)] = [pair[0], pair[1]];
-        0.5 * (w0 + w1) * (d1 - d0)
-    });
-    Some(jump + parts.sum::<f64>())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -145,14 +134,5 @@ mod tests {
         let displacement = at(&rows, [Quantity::Radius, Quantity::Displacement], 0.625);
         assert_eq!(displacement, Some(1.0));
         assert_eq!(points(&rows, axes), [(0.25, 3.0), (0.5, 1.0)]);
-    }
-
-    #[test]
-    fn the_work_along_the_curve_of_hertz_is_two_fifths_of_load_times_approach() {
-        let work_j = |points: &[(f64, f64)]| work(points).unwrap();
-        assert!((work_j(&[(10.0, 2e-6)]) - 8e-6).abs() < 1e-20);
-        // Then held while the approach creeps.
-        assert!((work_j(&[(10.0, 2e-6), (10.0, 3e-6)]) - 18e-6).abs() < 1e-20);
-        assert_eq!(work(&[]), None);
     }
 }
