@@ -46,8 +46,13 @@ pub fn write_sweep(
     plan: &SweepPlan,
     outcome: &Outcome,
 ) -> Result<Vec<String>, ReportError> {
-    tables(store, plan, outcome)?;
-    let left_out = figures_of_sweep(store, plan, outcome)?;
+    // Files of single cases are many and small: while one thread waits for the disk, another draws.
+    let (tables, left_out) = rayon::join(
+        || tables(store, plan, outcome),
+        || figures_of_sweep(store, plan, outcome),
+    );
+    tables?;
+    let left_out = left_out?;
     store.remove_stale()?;
     Ok(left_out)
 }
