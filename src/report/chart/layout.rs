@@ -138,7 +138,10 @@ pub(super) fn lay_out(
     let mut right = crisp(width - MARGIN - reserve.right - of_bar);
     checked_size(chart, right - left)?;
     let mut x = AxisMap::new(chart.x.scale, ranges.x, (left, right));
-    let x_ticks = ticks::choose(x.scale, x.low, x.high, |ticks| room_for_widths(&x, ticks));
+    let mut x_ticks = ticks::choose(x.scale, x.low, x.high, |ticks| room_for_widths(&x, ticks));
+    if chart.x.whole {
+        x_ticks = x_ticks.at_whole_numbers();
+    }
     if !room_for_widths(&x, &x_ticks.major) {
         return Err(no_room(chart));
     }

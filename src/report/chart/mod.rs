@@ -196,6 +196,9 @@ pub struct Axis {
     pub scale: Scale,
     /// The values at the two ends of the axis, low then high. `None`: chosen from the data.
     pub range: Option<(f64, f64)>,
+    /// Whether its values are counted: ticks stand at whole numbers alone.
+    #[serde(default)]
+    pub whole: bool,
 }
 
 impl Axis {

@@ -26,6 +26,18 @@ impl Ticks {
         self.minor.sort_by(f64::total_cmp);
     }
 
+    /// Those at whole numbers.
+    pub(super) fn at_whole_numbers(mut self) -> Self {
+        self.major.retain(|tick| tick.value.fract() == 0.0);
+        for tick in &mut self.major {
+            let whole = tick.label.split_once('.');
+            let whole = whole.filter(|(_, decimals)| decimals.bytes().all(|digit| digit == b'0'));
+            tick.label = whole.map_or_else(|| tick.label.clone(), |(whole, _)| whole.to_owned());
+        }
+        self.minor.retain(|value| value.fract() == 0.0);
+        self
+    }
+
     /// The value and the length (px) of every tick.
     pub(super) fn lengths(&self) -> impl Iterator<Item = (f64, f64)> {
         let minor = self.minor.iter().map(|&value| (value, MINOR_TICK));
@@ -350,6 +362,15 @@ mod tests {
             ["2", "5", "10", "20"]
         );
         assert_eq!(of(Scale::Linear, (0.0, 5.0), (2.0, 2.0)), [""; 0]);
+    }
+
+    #[test]
+    fn what_is_counted_has_ticks_at_whole_numbers() {
+        let of = |low: f64, high: f64| labels(&linear(low, high, 8).at_whole_numbers()).join(" ");
+        assert_eq!(of(1.0, 2.0), "1 2");
+        assert_eq!(of(0.9, 4.1), "1 2 3 4");
+        assert_eq!(of(1.0, 40.0), "5 10 15 20 25 30 35 40");
+        assert!(linear(1.0, 3.0, 8).at_whole_numbers().minor.is_empty());
     }
 
     #[test]

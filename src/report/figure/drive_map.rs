@@ -100,6 +100,7 @@ fn chart(
                 _ => scale((from, to), WIDE),
             },
             range: Some((shown.of(from), shown.of(to))),
+            ..Axis::default()
         };
         (axis, shown)
     };

@@ -29,6 +29,8 @@ pub struct Quantity {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Spread {
     Linear,
+    /// Linear, of what is counted.
+    Whole,
     Log,
     /// Where values, all above zero, are more than eight times apart and not evenly spaced.
     OfValues,
@@ -410,7 +412,7 @@ impl Plot {
         let highest = self.traces.iter().map(Trace::highest);
         let highest: Vec<f64> = highest.filter(|height| *height > 0.0).collect();
         let of = |quantity: &Quantity, values: Vec<f64>| match quantity.spread {
-            Spread::Linear => Scale::Linear,
+            Spread::Linear | Spread::Whole => Scale::Linear,
             Spread::Log => Scale::Log,
             Spread::OfCurves => scale(range(highest.iter().copied()), WIDE_CURVES),
             Spread::OfValues => Spread::of_values(values),
@@ -450,6 +452,7 @@ impl Plot {
         let axis = |quantity: &Quantity, scale, ends: Option<(f64, f64)>, size| {
             let shown = units.shown(quantity.measure, size);
             let axis = Axis {
+                whole: quantity.spread == Spread::Whole,
                 label: shown.title(&quantity.words),
                 scale,
                 range: ends.map(|(low, high)| (shown.of(low), shown.of(high))),

@@ -48,7 +48,8 @@ pub const TEMPERATURE: Quantity = Quantity::new(
     "temperature T",
     Measure::Of(Dimension::Temperature),
 );
-pub const CYCLE: Quantity = Quantity::new("cycle", "number of the cycle", Measure::Number);
+pub const CYCLE: Quantity =
+    Quantity::new("cycle", "number of the cycle", Measure::Number).spread(Spread::Whole);
 pub const RESIDUAL: Quantity = Quantity::new(
     "relative_difference",
     "difference of model and data, over the data",
