@@ -438,16 +438,31 @@ impl Plot {
         within(self.x_ends, x) && within(self.y_ends, y)
     }
 
-    /// How both axes are shown, with their titles.
-    fn axes(&self, units: &Units) -> [(Axis, Shown); 2] {
+    /// The largest values (SI) along both axes.
+    fn sizes(&self) -> [f64; 2] {
         let points = || self.traces.iter().flat_map(|trace| &trace.points);
         let xs = points().map(|point| point.x);
         let ys = points().flat_map(|p| [p.y, p.band.map(|band| band.1)]);
         let marks = || self.marked();
-        let sizes = [
+        [
             largest(xs.chain(marks().map(|m| m.0)).map(f64::abs)),
             largest(ys.flatten().chain(marks().map(|m| m.1)).map(f64::abs)),
-        ];
+        ]
+    }
+
+    /// The same among these frames: logarithmic axes of one measure, which hold small values as well, have one unit.
+    fn sizes_among(&self, plots: &[Self]) -> [f64; 2] {
+        let [x, y] = self.sizes();
+        let is_log = |plot: &&Self| plot.scales()[1] == Scale::Log;
+        let alike = plots.iter().filter(|p| p.y.measure == self.y.measure);
+        match is_log(&self) {
+            true => [x, largest(alike.filter(is_log).map(|p| p.sizes()[1]))],
+            false => [x, y],
+        }
+    }
+
+    /// How both axes are shown, with their titles, for values as large as these.
+    fn axes(&self, units: &Units, sizes: [f64; 2]) -> [(Axis, Shown); 2] {
         let [x_scale, y_scale] = self.scales();
         let axis = |quantity: &Quantity, scale, ends: Option<(f64, f64)>, size| {
             let shown = units.shown(quantity.measure, size);
@@ -509,9 +524,9 @@ impl Plot {
         (!all.is_empty()).then(|| !all.contains(&false))
     }
 
-    /// The chart.
-    pub fn chart(&self, units: &Units) -> Chart {
-        let [(x_axis, x), (y_axis, y)] = self.axes(units);
+    /// The chart, in units for values as large as these.
+    fn chart(&self, units: &Units, sizes: [f64; 2]) -> Chart {
+        let [(x_axis, x), (y_axis, y)] = self.axes(units, sizes);
         let on = Axes {
             scales: [x_axis.scale, y_axis.scale],
             shown: [x, y],
@@ -664,7 +679,7 @@ pub(super) fn charts(plots: &[Plot], units: &Units) -> Vec<Chart> {
     const TITLE_PX: u32 = 25;
     let last = plots.len().saturating_sub(1);
     let chart = |(k, plot): (usize, &Plot)| {
-        let mut chart = plot.chart(units);
+        let mut chart = plot.chart(units, plot.sizes_among(plots));
         chart.size.height_px = plot.height_px.unwrap_or(HEIGHTS_PX[last.min(2)]);
         if k < last {
             chart.x.label.clear();
@@ -786,5 +801,30 @@ impl Table {
         }));
         self.curves.push((name, xs, first));
         first
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::quantity::{APPROACH, MODULUS, TIME};
+    use super::*;
+
+    #[test]
+    fn frames_one_above_another_have_one_unit_of_a_quantity_on_logarithmic_axes() {
+        let titles = |quantity: &Quantity| -> Vec<String> {
+            let frame = |size: f64| {
+                let points = [(1.0, 0.5 * size), (2.0, size)];
+                Plot::new(TIME, quantity.clone()).traces([Trace::line(points)])
+            };
+            let charts = charts(&[frame(5e9), frame(2e8)], &Units::default());
+            charts.into_iter().map(|chart| chart.y.label).collect()
+        };
+        assert_eq!(titles(&MODULUS), ["modulus / GPa", "modulus / GPa"]);
+        // On linear ones the smaller would be a row of zeros.
+        let linear = titles(&APPROACH.spread(Spread::Linear));
+        assert!(
+            linear[0].ends_with("/ Gm") && linear[1].ends_with("/ Mm"),
+            "{linear:?}"
+        );
     }
 }
