@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""THIRD-PARTY-NOTICES.txt: the licence texts of every crate that is part of the program or of the Python package.
+"""THIRD-PARTY-NOTICES.txt: the licence texts of every crate that is part of the program or of the Python package, for whose sources
+there is a copy.
 
-Without arguments it writes the file, with --check it fails where the file is not of these dependencies. Where a crate offers a
+Without arguments it writes both, with --check it fails where one is not of these dependencies. Where a crate offers a
 choice, the text is that of MIT. Crates of the same text stand together."""
 
 import json
@@ -9,7 +10,7 @@ import os
 import subprocess
 import sys
 
-FILE = "THIRD-PARTY-NOTICES.txt"
+FILES = ["THIRD-PARTY-NOTICES.txt", "python/licenses/THIRD-PARTY-NOTICES.txt"]
 HEAD = """The program contact-dma and its Python package contain these libraries by others, under these terms.
 Written by .ci/notices.py from the versions in Cargo.lock.
 """
@@ -62,13 +63,14 @@ def notices():
 
 def main():
     made = notices()
-    if sys.argv[1:] != ["--check"]:
-        with open(FILE, "w") as file:
-            file.write(made)
-        return
-    with open(FILE) as file:
-        if file.read() != made:
-            sys.exit(f"{FILE} is not of the present dependencies: run .ci/notices.py")
+    for name in FILES:
+        if sys.argv[1:] != ["--check"]:
+            with open(name, "w") as file:
+                file.write(made)
+            continue
+        with open(name) as file:
+            if file.read() != made:
+                sys.exit(f"{name} is not of the present dependencies: run .ci/notices.py")
 
 
 if __name__ == "__main__":

@@ -69,6 +69,7 @@
 //! | [`identify`] | a material from measured cycles: the sweep as a forward model |
 //! | [`figures`] | size of figures on paper, their typefaces, units of normalised axes |
 //! | [`input`] | sweep, scenario and identification files, and the data files they name, to plans |
+//! | `citation` | what to cite for what a result used |
 //! | [`report`] | tables and figures, from records alone |
 //! | [`reproduction`] | the base paper, figure by figure; knows `reference` too, to draw closed forms and compare with them |
 //! | `repository` | what the repository repeats of tables and commands |
@@ -90,6 +91,8 @@ pub use contact_dma_core::{
     prelude, quantity, reference, simulation, steady, sweep,
 };
 
+#[cfg(feature = "cli")]
+mod citation;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod figures;

@@ -5,5 +5,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    contact_dma::cli::run(std::env::args_os())
+    ExitCode::from(contact_dma::cli::run(std::env::args_os()))
 }

@@ -5,6 +5,9 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
+use serde_json::{Value, json};
+
+use crate::citation;
 use crate::input::keys::{self, FileKind};
 use crate::input::{key_reference, python_calls, schema};
 use crate::report::quantities::{CYCLES, HISTORY, SWEEP, reference};
@@ -78,6 +81,7 @@ fn parts(commands: &str) -> Vec<(String, Part)> {
         words.replace('µ', "\\xc2\\xb5"),
     );
     parts.push(("tests/fuzz/words.txt".to_owned(), words));
+    parts.extend(publication());
     let mut marked = |file: &str, name: &str, text: String| {
         let marks = ["begin", "end"].map(|side| format!("<!-- {name}: {side} -->"));
         let [begin, end] = marks;
@@ -121,6 +125,42 @@ fn parts(commands: &str) -> Vec<(String, Part)> {
         );
     }
     parts
+}
+
+/// What says how the program is cited and found, of what the package says of itself.
+fn publication() -> [(String, Part); 3] {
+    let (version, url) = (env!("CARGO_PKG_VERSION"), env!("CARGO_PKG_REPOSITORY"));
+    let (authors, about) = (env!("CARGO_PKG_AUTHORS"), env!("CARGO_PKG_DESCRIPTION"));
+    let licences: Vec<&str> = env!("CARGO_PKG_LICENSE").split(" OR ").collect();
+    let paper = citation::implemented();
+    let implemented = json!({
+        "type": "article", "title": paper.field("title"), "journal": paper.field("journal"), "doi": paper.field("doi"),
+        "authors": [{ "name": paper.field("author") }],
+    });
+    // JSON is YAML too.
+    let cff = json!({
+        "cff-version": "1.2.0", "type": "software", "title": "contact-dma", "version": version, "abstract": about,
+        "message": "Please cite the program, and what `contact-dma cite FOLDER` prints for a folder of results.",
+        "authors": [{ "name": authors }], "license": licences, "repository-code": url, "references": [implemented],
+    });
+    let codemeta = json!({
+        "@context": "https://doi.org/10.5063/schema/codemeta-2.0", "@type": "SoftwareSourceCode", "name": "contact-dma",
+        "version": version, "description": about, "codeRepository": url, "programmingLanguage": ["Rust", "Python"],
+        "author": [{ "@type": "Organization", "name": authors }],
+        "license": licences.iter().map(|name| format!("https://spdx.org/licenses/{name}")).collect::<Vec<_>>(),
+        "referencePublication": format!("https://doi.org/{}", paper.field("doi").unwrap_or_default()),
+    });
+    let whole = |value: &Value| Part::Whole(format!("{value:#}\n"));
+    let urls = Part::Between(
+        "[project.urls]\n# Written by `contact-dma renew`.\n".to_owned(),
+        "# End.".to_owned(),
+        format!("Homepage = \"{url}\"\nChangelog = \"{url}/blob/main/CHANGELOG.md\"\n"),
+    );
+    [
+        ("CITATION.cff".to_owned(), whole(&cff)),
+        ("codemeta.json".to_owned(), whole(&codemeta)),
+        ("python/pyproject.toml".to_owned(), urls),
+    ]
 }
 
 /// Paragraphs of their own between two marks.

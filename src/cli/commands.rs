@@ -6,8 +6,8 @@ use clap_complete::Shell;
 use super::failure::{Ended, Failure};
 use super::output::{OutputFormat, write_out};
 use super::{
-    analyse, compare, identify, material, merge, plan, renew, report, reproduce, schema, simulate,
-    sweep,
+    analyse, cite, compare, identify, man, material, merge, plan, renew, report, reproduce, schema,
+    simulate, sweep,
 };
 
 /// Dynamic mechanical analysis by contact: what a viscoelastic half-space dissipates under an oscillating indenter.
@@ -62,6 +62,8 @@ enum Command {
     Material(material::MaterialCommand),
     /// Print the JSON Schema by which editors complete and check input files
     Schema(schema::SchemaFlags),
+    /// Print what to cite for a result: the program, the paper, methods, sources of materials
+    Cite(cite::CiteFlags),
     /// Write anew what the repository repeats of the tables of keys and columns and of the commands
     #[command(hide = true)]
     Renew(renew::RenewFlags),
@@ -73,6 +75,11 @@ Example:
         /// The shell
         shell: Shell,
     },
+    /// Write a manual page for every command
+    #[command(after_help = "\
+Example:
+  contact-dma man ~/.local/share/man/man1")]
+    Man(man::ManFlags),
 }
 
 impl Arguments {
@@ -82,6 +89,8 @@ impl Arguments {
         let shown = all.get_subcommands().filter(|inner| !inner.is_hide_set());
         clap::Command::new("contact-dma")
             .version(env!("CARGO_PKG_VERSION"))
+            .about(all.get_about().cloned().unwrap_or_default())
+            .after_help(EXIT_CODES)
             .args(all.get_arguments().cloned())
             .subcommands(shown.cloned())
     }
@@ -101,6 +110,8 @@ impl Arguments {
             Command::Reproduce(flags) => reproduce::run(&flags, format),
             Command::Schema(flags) => schema::run(&flags),
             Command::Renew(flags) => renew::run(&flags, &Self::shown()),
+            Command::Cite(flags) => cite::run(&flags, format),
+            Command::Man(flags) => man::run(&flags, Self::shown()),
             Command::Material(command) => material::run(&command, format),
             Command::Completions { shell } => {
                 let mut text = Vec::new();

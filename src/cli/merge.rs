@@ -35,6 +35,9 @@ pub(super) struct MergeFlags {
     /// Folder for the whole
     #[arg(long, value_name = "DIR", value_parser = folder())]
     out: PathBuf,
+    /// Write only tables, without figures and page
+    #[arg(long)]
+    no_figures: bool,
     #[command(flatten)]
     work: WorkFlags,
 }
@@ -84,6 +87,7 @@ pub(super) fn run(flags: &MergeFlags, format: OutputFormat) -> Result<Ended, Fai
     let job = Job {
         threads,
         found: progress.finish(),
+        figures: !flags.no_figures,
         ..Job::new("merge", clock, (&setup, &out), (format, flags.work.quiet))
     };
     job.finish(outcome?)

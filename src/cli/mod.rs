@@ -8,6 +8,7 @@
 //! 130 interrupted.
 
 mod analyse;
+mod cite;
 mod commands;
 mod compare;
 mod documents;
@@ -16,6 +17,7 @@ mod flags;
 mod folders;
 mod identify;
 mod interruption;
+mod man;
 mod material;
 mod material_export;
 mod material_fit;
@@ -36,7 +38,6 @@ mod sweep;
 
 use std::ffi::OsString;
 use std::io;
-use std::process::ExitCode;
 
 use clap::Parser;
 use clap::error::{ContextKind, ContextValue};
@@ -47,15 +48,15 @@ use output::failed;
 
 use crate::input::dynamic::{DynamicFormat, silence_caught_panics};
 
-/// Runs the program with these arguments, the first being its name.
-pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+/// Runs the program with these arguments, the first being its name; its exit code.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     silence_caught_panics();
     if let Err(error) = interruption::listen() {
         return failed(Failure::run(format!("cannot listen for Ctrl-C: {error}")));
     }
     match Arguments::try_parse_from(arguments) {
         Ok(arguments) => match arguments.run() {
-            Ok(ended) => ExitCode::from(ended.exit_code()),
+            Ok(ended) => ended.exit_code(),
             Err(failure) => failed(failure),
         },
         // Help and version come this way too, with exit code 0. A closed pipe is no reason to fail.
@@ -65,7 +66,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
                 Err(why) if why.kind() != io::ErrorKind::BrokenPipe => {
                     failed(Failure::run(format!("cannot write the help: {why}")))
                 }
-                _ => ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2)),
+                _ => u8::try_from(error.exit_code()).unwrap_or(2),
             }
         }
     }

@@ -3,7 +3,6 @@
 use std::fs;
 use std::io::{self, IsTerminal, Write};
 use std::path::Path;
-use std::process::ExitCode;
 
 use clap::ValueEnum;
 use serde_json::Value;
@@ -77,7 +76,7 @@ pub(super) fn read_json(path: &Path) -> Result<Value, Failure> {
 }
 
 /// Prints a failure; returns its exit code.
-pub(super) fn failed(failure: Failure) -> ExitCode {
+pub(super) fn failed(failure: Failure) -> u8 {
     let (code, printed) = match failure {
         Failure::Run(message) => (1, error_line(&message)),
         Failure::Input(message) => (2, error_line(&message)),
@@ -89,7 +88,7 @@ pub(super) fn failed(failure: Failure) -> ExitCode {
     };
     // Where even standard error is closed, the exit code is all that is left to say.
     let _ = printed;
-    ExitCode::from(code)
+    code
 }
 
 fn error_line(message: &str) -> io::Result<()> {

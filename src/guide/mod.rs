@@ -15,6 +15,7 @@
 //! | [`cluster`] | sweeps on several machines: shards, Slurm; what a folder remembers, how results are compared |
 //! | [`results`] | what is written, what every number means, and how far it can be trusted |
 //! | [`figures`] | figures in the size and look of a journal |
+//! | [`theory`] | what is computed, by which method, and where each comes from |
 //! | [`validation`] | the two engines, and what they were held against |
 //! | [`validity`] | what the model leaves out, and how to see that it matters |
 //!
@@ -44,5 +45,6 @@ guide!(python, "python.md");
 guide!(cluster, "cluster.md");
 guide!(results, "results.md");
 guide!(figures, "figures.md");
+guide!(theory, "theory.md");
 guide!(validation, "validation.md");
 guide!(validity, "validity.md");

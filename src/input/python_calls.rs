@@ -17,8 +17,8 @@ use crate::quantity::key::{Key, Kind};
 use crate::quantity::rows::{Branch, Rows};
 use crate::sweep::plan::CyclePlan;
 use arguments::{
-    AS_PYTHON, AXES, COMMON, DATA, DYNAMIC, FILE, HEIGHTS, INDENTER, INDENTERS, MATERIAL,
-    MATERIALS, Own, PROFILE, SAMPLES,
+    AS_PYTHON, COMMON, DATA, DYNAMIC, FILE, HEIGHTS, INDENTER, INDENTERS, MATERIAL, MATERIALS,
+    OF_SWEEP, Own, PROFILE, SAMPLES,
 };
 pub use stubs::stubs;
 use stubs::{annotation, attribute};
@@ -213,7 +213,7 @@ fn function(name: &str, kind: FileKind, tables: &[&'static str]) -> Call {
         .filter(|own| !(is_identify && own.0 == "progress"));
     arguments.extend(title.into_iter().chain(common.map(own)));
     if kind == FileKind::Sweep {
-        arguments.push(own(AXES));
+        arguments.extend(OF_SWEEP.map(own));
     }
     Call {
         name: name.to_owned(),

@@ -1,6 +1,6 @@
 //! Captions: what a figure shows, of what, with which numbers, and how it was computed, as one paragraph to paste into a paper.
 
-use super::number::plain;
+use super::number::{at_frequency, plain};
 use super::words::{self, adhesion_line, compressibility, drive_line, range, row, varied_line};
 use crate::engine::{EngineKind, SolverPlan};
 use crate::indenter::{Indenter, Value};
@@ -85,13 +85,10 @@ impl Setting {
         let varied = after_comma(varied_line(plan));
         // What is drawn over another axis does not tell the frequency, where there is but one.
         let one = match (&plan.axes, plan.angular_frequencies_rad_per_s.as_slice()) {
-            (Some(_), [omega]) => {
-                let unit = plan.figures.frequency_unit;
-                let value = plain(unit.of(*omega), unit.dimension(), 4);
-                format!(", {} = {value}", unit.symbol())
-            }
-            _ => String::new(),
+            (Some(_), [omega]) => Some(at_frequency(plan.figures.frequency_unit, *omega, 4)),
+            _ => None,
         };
+        let one = after_comma(one);
         let of = format!(
             "{} on {}{}, {} (mean ± amplitude){one}{rest}{attraction}{varied}",
             words::each_of(plan, Block::Indenter, |name, c| {

@@ -1,6 +1,6 @@
 //! The peaks of a sweep in words, for terminal, page and captions.
 
-use super::number::{self, plain, with_error};
+use super::number::{self, at_frequency, plain, with_error};
 use crate::quantity::Dimension;
 use crate::sweep::plan::{AxisValues, SweepPlan};
 use crate::sweep::search::peak::Peak;
@@ -168,13 +168,14 @@ fn largest_case(plan: &SweepPlan, outcome: &Outcome) -> Option<String> {
         record.energy_loss_error_j(),
         record.energy_loss_material_error_j(),
     );
-    let unit = plan.figures.frequency_unit;
-    let frequency = unit.of(record.angular_frequency_rad_per_s);
+    let (unit, omega) = (
+        plan.figures.frequency_unit,
+        record.angular_frequency_rad_per_s,
+    );
     Some(format!(
-        "Largest loss: {} at {} = {}{}",
+        "Largest loss: {} at {}{}",
         with_error(loss_j, error_j, Dimension::Energy),
-        unit.symbol(),
-        plain(frequency, unit.dimension(), 4),
+        at_frequency(unit, omega, 4),
         under(plan, &record.varied)
     ))
 }

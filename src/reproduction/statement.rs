@@ -64,7 +64,7 @@ impl Judged {
     }
 
     /// A sentence on one that disagrees, of the figure with this number.
-    pub(super) fn disagreement(&self, figure: u8) -> String {
+    fn disagreement(&self, figure: u8) -> String {
         let Self {
             paper,
             computed,

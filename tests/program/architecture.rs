@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules from top to bottom: those of the package in `src/core`, then those of the program.
-const MODULES: [&str; 23] = [
+const MODULES: [&str; 24] = [
     "transforms",
     "numerics",
     "quantity",
@@ -23,6 +23,7 @@ const MODULES: [&str; 23] = [
     "identify",
     "figures",
     "input",
+    "citation",
     "report",
     "reproduction",
     "repository",

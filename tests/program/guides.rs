@@ -48,7 +48,8 @@ fn steps(guide: &str) -> Vec<Step> {
                 Some(Step::Console(lines.map(str::to_owned).collect()))
             }
             ("latex", _) => Some(Step::Latex(text)),
-            ("", _) => None,
+            // Rust is tested as documentation, a workflow of a code host is only shown.
+            ("" | "yaml", _) => None,
             (other, _) => panic!("{guide}: a block of {other}"),
         });
         prose = parts.next().expect("a block is not closed").to_owned();
@@ -178,6 +179,7 @@ macro_rules! guides {
 guides! {
     input_files: ["pmma"],
     figures: [],
+    theory: ["Spinu"],
     validation: ["7 agree"],
     own_material: [],
     measured_material: ["found from the content", "21 isotherms", "Material and figures in"],
@@ -260,6 +262,5 @@ fn every_guide_is_followed_here_and_named_in_the_readme() {
             assert!(readme.contains(&format!("(src/guide/{name})")), "{guide}");
         }
     }
-    // What it is, two commands, where to read on.
-    assert!(readme.len() < 9 * 1024, "{}", readme.len());
+    assert!(readme.len() <= 7000, "{}", readme.len());
 }

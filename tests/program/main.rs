@@ -22,6 +22,7 @@ mod architecture;
 mod axes;
 mod build_identity;
 mod bulk_modulus;
+mod cite;
 mod command_line;
 mod compare;
 mod cycles_by_number;

@@ -12,7 +12,7 @@ fn nothing_generated_is_stale() {
 }
 
 /// The files of the repository that are generated, or of which parts are.
-const FILES: &str = "README.md python/contact_dma/_calls.pyi src/guide/input_files.md src/guide/own_indenter.md src/guide/own_loading.md \
+const FILES: &str = "CITATION.cff README.md codemeta.json python/contact_dma/_calls.pyi python/pyproject.toml src/guide/input_files.md src/guide/own_indenter.md src/guide/own_loading.md \
                      src/guide/own_material.md src/guide/python.md src/guide/results.md sweeps/schema/identify.json \
                      sweeps/schema/scenario.json sweeps/schema/setup.json sweeps/schema/sweep.json tests/fuzz/words.txt";
 

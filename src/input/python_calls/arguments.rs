@@ -129,11 +129,25 @@ pub(super) const COMMON: [Own; 6] = [
         "A function of what is done and what there is in all, or a bar of tqdm.",
     ),
 ];
-pub(super) const AXES: Own = (
-    "axes",
-    "Mapping[str, Sequence[Quantity] | NDArray[Any]] | None",
-    "Other axes than the frequency, such as `{\"indenter.radius\": [\"5 mm\", \"10 mm\"], \"drive.amplitude\": [1.0, 2.0]}`.",
-);
+/// Of a sweep alone.
+pub(super) const OF_SWEEP: [Own; 3] = [
+    (
+        "axes",
+        "Mapping[str, Sequence[Quantity] | NDArray[Any]] | None",
+        "Other axes than the frequency, such as `{\"indenter.radius\": [\"5 mm\", \"10 mm\"], \"drive.amplitude\": [1.0, 2.0]}`.",
+    ),
+    (
+        "executor",
+        "Executor | None",
+        "Who solves the cases in other processes: a pool of `concurrent.futures` or of joblib, mpi4py or Dask (`client.get_executor()`). \
+         `threads` are then those of one shard, one where it is left out. Results do not depend on it.",
+    ),
+    (
+        "shards",
+        "int | None",
+        "With `executor`: in how many parts the cases are handed out; left out: four for each worker.",
+    ),
+];
 
 /// Arguments of materials and indenters that stand for tables, in the form that they have in Python: name, type, meaning.
 pub(super) const AS_PYTHON: [Own; 3] = [

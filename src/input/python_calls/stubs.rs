@@ -98,6 +98,7 @@ pub fn stubs() -> String {
 const STUBS_HEAD: &str = "\
 # Written by `contact-dma renew` from the keys of the input files.
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
 from os import PathLike
 from typing import Any, Literal, TypeVar
 

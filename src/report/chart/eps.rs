@@ -2,6 +2,7 @@
 //! white of the paper.
 
 use std::fmt::Write as _;
+use std::slice;
 
 use tiny_skia::{Path, PathSegment, Point};
 
@@ -88,8 +89,14 @@ fn path(shape: &Shape) -> String {
 
 fn outline(path: &Path) -> String {
     let mut text = String::new();
-    let mut at = Point::zero();
-    let mut go = |points: &[Point], operator: &str| {
+    for segment in without_quadratic_curves(path) {
+        let (points, operator): (&[Point], _) = match &segment {
+            PathSegment::MoveTo(to) => (slice::from_ref(to), "m"),
+            PathSegment::LineTo(to) => (slice::from_ref(to), "l"),
+            PathSegment::QuadTo(..) => continue,
+            PathSegment::CubicTo(a, b, to) => (&[*a, *b, *to], "c"),
+            PathSegment::Close => (&[], "h"),
+        };
         for point in points {
             for value in [point.x, point.y] {
                 // To a hundredth of a px, far below what can be seen.
@@ -98,22 +105,15 @@ fn outline(path: &Path) -> String {
         }
         text.push_str(operator);
         text.push('\n');
-    };
-    for segment in path.segments() {
-        match segment {
-            PathSegment::MoveTo(to) => go(&[to], "m"),
-            PathSegment::LineTo(to) => go(&[to], "l"),
-            PathSegment::QuadTo(by, to) => {
-                // The cubic curve that is the same: PostScript has no others.
-                let towards = |end: Point| {
-                    let part = |from: f32, by: f32| from + 2.0 / 3.0 * (by - from);
-                    Point::from_xy(part(end.x, by.x), part(end.y, by.y))
-                };
-                go(&[towards(at), towards(to), to], "c");
-            }
-            PathSegment::CubicTo(a, b, to) => go(&[a, b, to], "c"),
-            PathSegment::Close => go(&[], "h"),
-        }
+    }
+    text
+}
+
+/// The parts of a path, each quadratic curve as the cubic one that is the same: PostScript and PDF have no others.
+pub(super) fn without_quadratic_curves(path: &Path) -> impl Iterator<Item = PathSegment> {
+    let mut at = Point::zero();
+    path.segments().map(move |segment| {
+        let from = at;
         at = match segment {
             PathSegment::MoveTo(to)
             | PathSegment::LineTo(to)
@@ -122,8 +122,15 @@ fn outline(path: &Path) -> String {
             // A path that goes on after it begins with a move.
             PathSegment::Close => at,
         };
-    }
-    text
+        let PathSegment::QuadTo(by, to) = segment else {
+            return segment;
+        };
+        let towards = |end: Point| {
+            let part = |from: f32, by: f32| from + 2.0 / 3.0 * (by - from);
+            Point::from_xy(part(end.x, by.x), part(end.y, by.y))
+        };
+        PathSegment::CubicTo(towards(from), towards(to), to)
+    })
 }
 
 #[cfg(test)]

@@ -54,6 +54,7 @@ mod marker;
 mod notes;
 mod palette;
 mod pdf;
+mod pdf_font;
 mod place;
 mod png;
 mod scale;

@@ -1,23 +1,18 @@
 //! The picture as PDF: one page of the size that the picture has on paper, lines as lines, and text as text that can be searched
-//! and copied. krilla writes the PDF, and embeds of the font what is used.
+//! and copied.
 
-use std::collections::HashMap;
-use std::sync::Arc;
+use std::collections::BTreeMap;
+use std::io::Write as _;
 
-use krilla::Document;
-use krilla::color::{Color, luma, rgb};
-use krilla::geom::{PathBuilder, Point, Transform};
-use krilla::metadata::Metadata;
-use krilla::num::NormalizedF32;
-use krilla::page::PageSettings;
-use krilla::paint::{Fill, LineCap, LineJoin, Stroke};
-use krilla::surface::Surface;
-use krilla::text::{Font, GlyphId, KrillaGlyph};
+use flate2::{Compression, write::ZlibEncoder};
+use pdf_writer::types::{LineCapStyle, LineJoinStyle};
+use pdf_writer::{Content, Filter, Finish as _, Name, Pdf, Rect, Ref, Settings, Str, TextStr};
 use tiny_skia::{Path, PathSegment};
 
 use super::ChartError;
 use super::drawing::{Drawing, POINTS_PER_MM, Paint, Shape, Text};
-use super::text::Run;
+use super::eps::without_quadratic_curves;
+use super::pdf_font::{FontRefs, Fonts};
 
 /// A shape with crisp edges, such as a cell of a map, is drawn so much wider (px): viewers soften every edge, and between two boxes that
 /// only touch the paper would shine through.
@@ -25,36 +20,79 @@ const SEAM: f32 = 0.5;
 /// What opens the last lines of every PDF.
 const PDF_END: &[u8] = b"startxref";
 
+/// Nobody reads the objects of a picture.
+const COMPACT: Settings = Settings { pretty: false };
+
+const CATALOG: Ref = Ref::new(1);
+const PAGES: Ref = Ref::new(2);
+const PAGE: Ref = Ref::new(3);
+const CONTENT: Ref = Ref::new(4);
+const INFO: Ref = Ref::new(5);
+/// The first of those whose number depends on the picture.
+const FREE: Ref = Ref::new(6);
+
 impl Drawing {
     /// The picture as PDF. The same picture gives the same bytes: there is no date in it. Title and description are those of the
     /// document.
     ///
     /// # Errors
-    /// [`ChartError::Internal`] where krilla refuses it.
+    /// [`ChartError::Internal`] where the page cannot be compressed.
     pub fn to_pdf(&self) -> Result<Vec<u8>, ChartError> {
         let extent = self.extent();
         let points = |mm: f64| (mm * POINTS_PER_MM) as f32;
-        let page = PageSettings::from_wh(points(extent.width_mm), points(extent.height_mm))
-            .ok_or_else(|| failed("the picture has no size"))?;
-        let mut document = Document::new();
-        let mut sheet = document.start_page_with(page);
-        let mut surface = sheet.surface();
-        let mut fonts = Fonts::default();
+        let (width, height) = (points(extent.width_mm), points(extent.height_mm));
+        let mut page = Page::new(Fonts::of(
+            self.shapes.iter().filter_map(|s| s.text.as_deref()),
+        ));
+        // From px, of which the first row is on top, to points.
         let scale = points(extent.px_mm);
-        surface.push_transform(&Transform::from_scale(scale, scale));
-        let mut shapes = self.shapes.iter();
-        let drawn = shapes.try_for_each(|shape| draw(shape, &mut fonts, &mut surface));
-        surface.pop();
-        surface.finish();
+        page.content
+            .transform([scale, 0.0, 0.0, -scale, 0.0, height]);
+        page.content.set_line_join(LineJoinStyle::RoundJoin);
+        for shape in &self.shapes {
+            page.draw(shape);
+        }
+        let Page {
+            content,
+            fonts,
+            opacities,
+        } = page;
+
+        let mut pdf = Pdf::with_settings(COMPACT);
+        pdf.catalog(CATALOG).pages(PAGES);
+        pdf.pages(PAGES).kids([PAGE]).count(1);
+        let content = compressed(&content.finish())?;
+        pdf.stream(CONTENT, &content).filter(Filter::FlateDecode);
+        let mut free = FREE;
+        let refs: Vec<FontRefs> = fonts.iter().map(|_| FontRefs::next(&mut free)).collect();
+        let mut sheet = pdf.page(PAGE);
+        sheet.parent(PAGES).contents(CONTENT);
+        sheet.media_box(Rect::new(0.0, 0.0, width, height));
+        let mut resources = sheet.resources();
+        let mut named = resources.fonts();
+        for (font, refs) in fonts.iter().zip(&refs) {
+            named.pair(Name(font.name.as_bytes()), refs.font);
+        }
+        named.finish();
+        let mut states = resources.ext_g_states();
+        for (&percent, name) in &opacities {
+            let mut state = states
+                .insert(Name(name.as_bytes()))
+                .start::<pdf_writer::writers::ExtGraphicsState<'_>>();
+            state.non_stroking_alpha(percent as f32 / 1000.0);
+        }
+        states.finish();
+        resources.finish();
         sheet.finish();
-        drawn?;
-        let description = self.description.clone().unwrap_or_default();
-        let metadata = Metadata::new()
-            .title(self.title.clone())
-            .description(description)
-            .creator(env!("CARGO_PKG_NAME").to_owned());
-        document.set_metadata(metadata);
-        Ok(self.stamp_pdf(document.finish().map_err(failed)?))
+        for (font, refs) in fonts.iter().zip(&refs) {
+            font.write(&mut pdf, refs)?;
+        }
+        let mut info = pdf.document_info(INFO);
+        info.title(TextStr(&self.title));
+        info.subject(TextStr(self.description.as_deref().unwrap_or_default()));
+        info.creator(TextStr(env!("CARGO_PKG_NAME")));
+        info.finish();
+        Ok(self.stamp_pdf(pdf.finish()))
     }
 
     /// The comment goes behind the trailer, where no offset of the file counts past it.
@@ -68,130 +106,152 @@ impl Drawing {
     }
 }
 
-fn failed(reason: impl ToString) -> ChartError {
-    ChartError::internal("write the PDF of", reason)
+/// A stream as the filter FlateDecode reads it.
+pub(super) fn compressed(bytes: &[u8]) -> Result<Vec<u8>, ChartError> {
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
+    let written = encoder.write_all(bytes).and_then(|()| encoder.finish());
+    written.map_err(|error| ChartError::internal("write the PDF of", error))
 }
 
-/// The fonts that were used, by the place of their bytes.
-type Fonts = HashMap<*const u8, Font>;
-
-fn draw(shape: &Shape, fonts: &mut Fonts, surface: &mut Surface<'_>) -> Result<(), ChartError> {
-    let (fill, stroke) = match shape.paint {
-        Paint::Fill {
-            color,
-            opacity,
-            crisp,
-        } => {
-            let fill = Fill {
-                paint: flat(color).into(),
-                opacity: NormalizedF32::new(opacity as f32).unwrap_or(NormalizedF32::ONE),
-                ..Fill::default()
-            };
-            let seam = crisp.then(|| Stroke {
-                paint: fill.paint.clone(),
-                width: SEAM,
-                ..Stroke::default()
-            });
-            (Some(fill), seam)
-        }
-        Paint::Stroke {
-            color,
-            width,
-            round_ends,
-        } => {
-            let stroke = Stroke {
-                paint: flat(color).into(),
-                width: width as f32,
-                line_join: LineJoin::Round,
-                line_cap: match round_ends {
-                    true => LineCap::Round,
-                    false => LineCap::Butt,
-                },
-                ..Stroke::default()
-            };
-            (None, Some(stroke))
-        }
-    };
-    if let (Some(text), Some(fill)) = (&shape.text, &fill) {
-        return draw_text(text, fill, fonts, surface);
-    }
-    surface.set_fill(fill);
-    surface.set_stroke(stroke);
-    if let Some(path) = copied(&shape.path) {
-        surface.draw_path(&path);
-    }
-    Ok(())
+/// What is drawn so far, and what it uses by name: fonts, and the opacities that are not 1, in thousandths.
+struct Page {
+    content: Content,
+    fonts: Fonts,
+    opacities: BTreeMap<u32, String>,
 }
 
-/// Greys are told as greys, so that a printer mixes no inks for them.
-fn flat([red, green, blue]: [u8; 3]) -> Color {
-    match red == green && green == blue {
-        true => luma::Color::new(red).into(),
-        false => rgb::Color::new(red, green, blue).into(),
-    }
-}
-
-fn copied(path: &Path) -> Option<krilla::geom::Path> {
-    let mut builder = PathBuilder::new();
-    for segment in path.segments() {
-        match segment {
-            PathSegment::MoveTo(to) => builder.move_to(to.x, to.y),
-            PathSegment::LineTo(to) => builder.line_to(to.x, to.y),
-            PathSegment::QuadTo(by, to) => builder.quad_to(by.x, by.y, to.x, to.y),
-            PathSegment::CubicTo(a, b, to) => builder.cubic_to(a.x, a.y, b.x, b.y, to.x, to.y),
-            PathSegment::Close => builder.close(),
+impl Page {
+    fn new(fonts: Fonts) -> Self {
+        Self {
+            content: Content::with_settings(COMPACT),
+            fonts,
+            opacities: BTreeMap::new(),
         }
     }
-    builder.finish()
-}
 
-/// Every run of text as one line of glyphs, each in its place.
-fn draw_text(
-    text: &Text,
-    fill: &Fill,
-    fonts: &mut Fonts,
-    surface: &mut Surface<'_>,
-) -> Result<(), ChartError> {
-    let t = text.placed;
-    surface.push_transform(&Transform::from_row(t.sx, t.ky, t.kx, t.sy, t.tx, t.ty));
-    surface.set_fill(Some(fill.clone()));
-    surface.set_stroke(None);
-    for run in &text.line.runs {
-        let font = font(run, fonts)?;
-        let Some(first) = run.glyphs.first() else {
-            continue;
+    fn draw(&mut self, shape: &Shape) {
+        match shape.paint {
+            Paint::Fill {
+                color,
+                opacity,
+                crisp,
+            } => {
+                self.set_fill(color);
+                if let Some(text) = &shape.text
+                    && self.draw_text(text)
+                {
+                    return;
+                }
+                let thousandths = (opacity * 1000.0).round() as u32;
+                if thousandths < 1000 {
+                    let name = format!("A{thousandths}");
+                    self.content.save_state();
+                    self.content.set_parameters(Name(name.as_bytes()));
+                    self.opacities.insert(thousandths, name);
+                }
+                if crisp {
+                    self.set_stroke(color, SEAM, LineCapStyle::ButtCap);
+                }
+                self.add_path(&shape.path);
+                match crisp {
+                    true => self.content.fill_nonzero_and_stroke(),
+                    false => self.content.fill_nonzero(),
+                };
+                if thousandths < 1000 {
+                    self.content.restore_state();
+                }
+            }
+            Paint::Stroke {
+                color,
+                width,
+                round_ends,
+            } => {
+                let cap = match round_ends {
+                    true => LineCapStyle::RoundCap,
+                    false => LineCapStyle::ButtCap,
+                };
+                self.set_stroke(color, width as f32, cap);
+                self.add_path(&shape.path);
+                self.content.stroke();
+            }
+        }
+    }
+
+    /// Greys are told as greys, so that a printer mixes no inks for them.
+    fn set_fill(&mut self, color: [u8; 3]) {
+        let [red, green, blue] = color.map(|part| f32::from(part) / 255.0);
+        match red == green && green == blue {
+            true => self.content.set_fill_gray(red),
+            false => self.content.set_fill_rgb(red, green, blue),
         };
-        let next = run.glyphs.iter().skip(1).map(|glyph| glyph.x_em);
-        // Behind the last glyph comes none.
-        let next = next.chain(run.glyphs.last().map(|glyph| glyph.x_em));
-        let glyphs: Vec<KrillaGlyph> = run
-            .glyphs
-            .iter()
-            .zip(next)
-            .map(|(glyph, next)| {
-                let advance = (next - glyph.x_em) / run.size_em;
-                let above = (first.y_em - glyph.y_em) / run.size_em;
-                let id = GlyphId::new(glyph.id);
-                KrillaGlyph::new(id, advance, 0.0, above, 0.0, glyph.range.clone(), None)
-            })
-            .collect();
-        let at = Point::from_xy(first.x_em, first.y_em);
-        surface.draw_glyphs(at, &glyphs, font, &run.text, run.size_em, false);
     }
-    surface.pop();
-    Ok(())
-}
 
-/// The font of a run, read once for a document.
-fn font(run: &Run, fonts: &mut Fonts) -> Result<Font, ChartError> {
-    let bytes = Arc::clone(&run.font.bytes);
-    let place = (*bytes).as_ref().as_ptr();
-    if let Some(font) = fonts.get(&place) {
-        return Ok(font.clone());
+    fn set_stroke(&mut self, color: [u8; 3], width: f32, cap: LineCapStyle) {
+        let [red, green, blue] = color.map(|part| f32::from(part) / 255.0);
+        match red == green && green == blue {
+            true => self.content.set_stroke_gray(red),
+            false => self.content.set_stroke_rgb(red, green, blue),
+        };
+        self.content.set_line_width(width).set_line_cap(cap);
     }
-    let font = Font::new(bytes.into(), 0).ok_or_else(|| failed("its font cannot be read"))?;
-    fonts.insert(place, font.clone());
-    Ok(font)
+
+    fn add_path(&mut self, path: &Path) {
+        let content = &mut self.content;
+        for segment in without_quadratic_curves(path) {
+            match segment {
+                PathSegment::MoveTo(to) => content.move_to(to.x, to.y),
+                PathSegment::LineTo(to) => content.line_to(to.x, to.y),
+                PathSegment::QuadTo(..) => content,
+                PathSegment::CubicTo(a, b, to) => content.cubic_to(a.x, a.y, b.x, b.y, to.x, to.y),
+                PathSegment::Close => content.close_path(),
+            };
+        }
+    }
+
+    /// Every run of text as glyphs in their places; false where one of its fonts can only be drawn as outlines.
+    fn draw_text(&mut self, text: &Text) -> bool {
+        let runs = &text.line.runs;
+        let Some(fonts) = runs
+            .iter()
+            .map(|run| self.fonts.of_run(run))
+            .collect::<Option<Vec<_>>>()
+        else {
+            return false;
+        };
+        let content = &mut self.content;
+        content.begin_text();
+        for (run, font) in runs.iter().zip(fonts) {
+            content.set_font(Name(font.name.as_bytes()), 1.0);
+            for level in run.glyphs.chunk_by(|a, b| a.y_em == b.y_em) {
+                let Some(first) = level.first() else { continue };
+                // The y axis of glyphs points up.
+                let t = text
+                    .placed
+                    .pre_translate(first.x_em, first.y_em)
+                    .pre_scale(run.size_em, -run.size_em);
+                content.set_text_matrix([t.sx, t.ky, t.kx, t.sy, t.tx, t.ty]);
+                let mut shown = content.show_positioned();
+                let mut items = shown.items();
+                let mut codes: Vec<u8> = Vec::new();
+                let mut at = first.x_em / run.size_em * 1000.0;
+                for glyph in level {
+                    let place = glyph.x_em / run.size_em * 1000.0;
+                    // Thousandths of the size; less than that nobody sees.
+                    if (at - place).abs() > 0.5 {
+                        items.show(Str(&codes)).adjust(at - place);
+                        codes.clear();
+                        at = place;
+                    }
+                    let (code, width) = font.code_and_width(glyph.id);
+                    codes.extend(code.to_be_bytes());
+                    at += width;
+                }
+                items.show(Str(&codes));
+            }
+        }
+        content.end_text();
+        true
+    }
 }
 
 #[cfg(test)]

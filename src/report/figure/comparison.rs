@@ -1,7 +1,8 @@
 //! The loss of two results over frequency, and below it by how much they differ.
 
-use super::plot::{Plot, Point, Quantity, Trace};
-use super::quantity::ENERGY_LOSS;
+use super::plot::Plot;
+use super::quantity::{ENERGY_LOSS, Quantity};
+use super::trace::{Point, Trace};
 use super::units::{Measure, Units};
 use super::{Drawn, Figure};
 use crate::report::caption::Caption;

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::plot::{Plot, Quantity};
-use super::quantity::ENERGY_LOSS;
+use super::plot::Plot;
+use super::quantity::{ENERGY_LOSS, Quantity};
 use super::units::Units;
 use crate::report::ReportError;
 use crate::report::chart::literal;
@@ -291,7 +291,7 @@ impl<'a> SweepCurves<'a> {
                 let value = self.units.value(self.x.measure, self.place(record), 4);
                 let axes = self.plan.axes.as_ref();
                 match axes.and_then(|axes| axes.over.get(axis)) {
-                    Some(varied) => literal(&format!("{} {value}", varied.name())),
+                    Some(varied) => format!("{} {value}", varied.name()),
                     None => value,
                 }
             }

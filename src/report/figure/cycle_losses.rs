@@ -1,8 +1,9 @@
 //! The energy loss of every cycle of the sine segments of a history: how it comes to the stabilised one.
 
 use super::Figure;
-use super::plot::{Plot, Point, Trace};
+use super::plot::Plot;
 use super::quantity::{CYCLE, ENERGY_LOSS};
+use super::trace::{Point, Trace};
 use super::units::Units;
 use crate::quantity::Dimension;
 use crate::report::caption::Caption;

@@ -1,8 +1,8 @@
 //! Which relaxation branch dissipates: the energy loss over frequency as a stack of the losses of the branches.
 
 use super::curve::{Curve, SweepCurves};
-use super::plot::{Point, Spread, Trace};
-use super::quantity::ENERGY_LOSS;
+use super::quantity::{ENERGY_LOSS, Spread};
+use super::trace::{Point, Trace};
 use super::{Drawn, Figure};
 use crate::quantity::{Dimension, format_human};
 use crate::report::caption::Caption;

@@ -20,11 +20,14 @@ pub fn figure(sweep: &SweepCurves<'_>, curve: &Curve<'_>) -> Drawn {
     const NOTHING: &str = "no dissipation map: nothing is dissipated";
     let (record, result) = curve.largest_result().ok_or(NOTHING)?;
     let field = Field::of(&result.cycle.surface_loss).ok_or(NOTHING)?;
-    let of_case = Some(sweep.label_of(record));
-    let title: Vec<String> = of_case.into_iter().chain(curve.label.clone()).collect();
+    let case = sweep.label_of(record);
+    let title = match &curve.label {
+        Some(label) => format!("{case}, {label}"),
+        None => case,
+    };
     Ok(Figure {
         name: "dissipation-map".into(),
-        picture: field.chart(title.join(", "), &sweep.units).into(),
+        picture: field.chart(title, &sweep.units).into(),
         caption: caption(sweep, curve, record),
         data: data(&result.cycle.surface_loss),
     })

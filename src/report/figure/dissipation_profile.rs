@@ -3,8 +3,9 @@
 
 use super::curve::{Curve, SweepCurves, chosen};
 use super::loops::LOOPS;
-use super::plot::{Plot, Point, Quantity, Trace};
-use super::quantity::WORK_PER_AREA;
+use super::plot::Plot;
+use super::quantity::{Quantity, WORK_PER_AREA};
+use super::trace::{Point, Trace};
 use super::units::Measure;
 use super::{Drawn, Figure};
 use crate::report::caption::Caption;

@@ -2,7 +2,9 @@
 //! over two axes.
 
 use super::curve::{Curve, SweepCurves};
-use super::plot::{Plot, Point, Quantity, Spread, Trace, WIDE, is_even, scale};
+use super::plot::Plot;
+use super::quantity::{Quantity, Spread, WIDE, is_even, scale};
+use super::trace::{Point, Trace};
 use super::{Drawn, Figure};
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, HeatMap, MapShape, Scale};

@@ -3,8 +3,8 @@
 
 use super::Figure;
 use super::curve::{Curve, SweepCurves};
-use super::plot::{Point, Trace};
 use super::quantity::ENERGY_LOSS;
+use super::trace::{Point, Trace};
 use crate::report::caption::{self, Caption};
 use crate::report::chart::{Mark, Marker};
 use crate::report::peaks;

@@ -1,8 +1,9 @@
 //! Data against the series fitted to them, and the relative difference between the two.
 
 use super::Figure;
-use super::plot::{Plot, Quantity, Spread, Trace};
-use super::quantity::{RESIDUAL, TIME};
+use super::plot::Plot;
+use super::quantity::{Quantity, RESIDUAL, Spread, TIME};
+use super::trace::Trace;
 use super::units::{Measure, Units};
 use crate::material::MaterialFunction;
 use crate::material::fit::Fit;

@@ -3,7 +3,7 @@
 use super::Drawn;
 use super::curve::SweepCurves;
 use super::drive_map::{self, Mapped};
-use super::plot::Quantity;
+use super::quantity::Quantity;
 use super::units::Measure;
 use crate::drive::Control;
 use crate::report::caption::Caption;

@@ -1,8 +1,9 @@
 //! A history: load, approach and contact radius against time, one above another; and load against approach, whose area is the work
 //! of the indenter.
 
-use super::plot::{Plot, Point, Quantity, Trace};
-use super::quantity::{APPROACH, CONTACT_RADIUS, LOAD, TIME};
+use super::plot::Plot;
+use super::quantity::{APPROACH, CONTACT_RADIUS, LOAD, Quantity, TIME};
+use super::trace::{Point, Trace};
 use super::units::Units;
 use super::{Drawn, Figure};
 use crate::quantity::Dimension;

@@ -1,7 +1,8 @@
 //! Figures of a material identified from measured cycles or a history: data and model, residuals, and the moduli with their bands.
 
-use super::plot::{self, Plot, Point, Quantity, Spread, Trace, scale};
-use super::quantity::{MODULUS, RESIDUAL, TIME};
+use super::plot::Plot;
+use super::quantity::{self, MODULUS, Quantity, RESIDUAL, Spread, TIME, scale};
+use super::trace::{Point, Trace};
 use super::units::{Measure, Units};
 use crate::identify::data::Number;
 use crate::identify::{Compared, ModulusBand};
@@ -84,7 +85,7 @@ fn frame(report: &IdentifyReport<'_>, number: Number) -> Plot {
     let (name, dimension) = words(number);
     let measure = dimension.map_or(Measure::Number, Measure::Of);
     // What the model makes of them, which may be zero, does not decide on the axis.
-    let spread = match scale(range(numbers.iter().map(|c| c.measured)), plot::WIDE) {
+    let spread = match scale(range(numbers.iter().map(|c| c.measured)), quantity::WIDE) {
         Scale::Log => Spread::Log,
         Scale::Linear => Spread::Linear,
     };

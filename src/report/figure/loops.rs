@@ -2,8 +2,9 @@
 
 use super::Figure;
 use super::curve::{Curve, SweepCurves, chosen, largest};
-use super::plot::{Plot, Trace};
+use super::plot::Plot;
 use super::quantity::{APPROACH, LOAD};
+use super::trace::Trace;
 use crate::quantity::Dimension;
 use crate::report::caption::Caption;
 use crate::report::chart::Color;

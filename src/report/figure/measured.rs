@@ -3,8 +3,9 @@
 
 use super::Figure;
 use super::curve::evenly;
-use super::plot::{Plot, Point, Quantity, Spread, Trace};
-use super::quantity::{APPROACH, CYCLE, ENERGY_LOSS, LOAD, MODULUS};
+use super::plot::Plot;
+use super::quantity::{APPROACH, CYCLE, ENERGY_LOSS, LOAD, MODULUS, Quantity, Spread};
+use super::trace::{Point, Trace};
 use super::units::{Measure, Units};
 use crate::measured::bias::Unbiased;
 use crate::measured::{Estimate, Quantity as Measured};

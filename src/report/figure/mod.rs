@@ -23,12 +23,14 @@ pub mod moduli_error;
 pub mod of_sweep;
 pub mod peaks_over_axis;
 pub mod plot;
+mod points_table;
 pub mod press;
 pub mod pressure_map;
 pub mod profiles;
 pub mod quantity;
 pub mod relaxation;
 mod smooth;
+pub mod trace;
 pub mod units;
 
 use std::borrow::Cow;
@@ -61,7 +63,7 @@ impl Figure {
             name: name.into(),
             picture: Picture(plot::charts(plots, units)),
             caption: caption.say_all(plot::lines_in_words(plots).map(str::to_owned)),
-            data: plot::table(plots, units.frequency_unit()),
+            data: points_table::table(plots, units.frequency_unit()),
         }
     }
 

@@ -5,10 +5,11 @@ use num_complex::Complex;
 
 use super::curve::{Abscissa, Curve, SweepCurves};
 use super::equivalent::{LoopModulus, largest_differences, line};
-use super::plot::{Plot, Point, Quantity, Trace};
+use super::plot::Plot;
 use super::quantity::{
-    COMPLEX_MODULUS, LOSS_MODULUS, LOSS_TANGENT, MODULUS, PHASE_ANGLE, STORAGE_MODULUS,
+    COMPLEX_MODULUS, LOSS_MODULUS, LOSS_TANGENT, MODULUS, PHASE_ANGLE, Quantity, STORAGE_MODULUS,
 };
+use super::trace::{Point, Trace};
 use super::units::Units;
 use super::{Drawn, Figure};
 use crate::report::caption::{self, Caption};

@@ -3,7 +3,8 @@
 
 use super::curve::SweepCurves;
 use super::equivalent::{LoopModulus, largest_differences};
-use super::plot::{Point, Quantity, Trace};
+use super::quantity::Quantity;
+use super::trace::{Point, Trace};
 use super::units::Measure;
 use super::{Drawn, Figure};
 use crate::report::caption::Caption;

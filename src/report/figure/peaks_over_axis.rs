@@ -2,8 +2,9 @@
 //! of the sweep has none.
 
 use super::curve::SweepCurves;
-use super::plot::{Plot, Point, Quantity, Spread, Trace};
-use super::quantity::ENERGY_LOSS;
+use super::plot::Plot;
+use super::quantity::{ENERGY_LOSS, Quantity, Spread};
+use super::trace::{Point, Trace};
 use super::{Drawn, Figure};
 use crate::report::caption::Caption;
 use crate::report::chart::Marker;

@@ -4,8 +4,9 @@ use std::collections::BTreeSet;
 
 use super::Figure;
 use super::curve::evenly;
-use super::plot::{Plot, Point, Quantity, Trace};
-use super::quantity::{DISPLACEMENT, PRESSURE, TIME};
+use super::plot::Plot;
+use super::quantity::{DISPLACEMENT, PRESSURE, Quantity, TIME};
+use super::trace::{Point, Trace};
 use super::units::{Measure, Units};
 use crate::quantity::Dimension;
 use crate::report::caption::Caption;

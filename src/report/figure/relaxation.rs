@@ -1,8 +1,9 @@
 //! Relaxation modulus against time, as figure 1 of S. Spinu, Advances in Tribology 2018, 9432894, shows it for PMMA.
 
 use super::Figure;
-use super::plot::{Plot, Quantity, Trace};
-use super::quantity::TIME;
+use super::plot::Plot;
+use super::quantity::{Quantity, TIME};
+use super::trace::Trace;
 use super::units::{Measure, Units};
 use crate::quantity::Dimension;
 use crate::report::caption::Caption;

@@ -25,7 +25,7 @@ pub fn page(
 ) -> Result<String, ReportError> {
     let content = html! {
         (list(report.lines()))
-        (pictures.whole(figures.iter().map(|figure| &*figure.name)))
+        (pictures.whole(figures))
         @if let Some(master) = &report.made.master { h3 { "Shift factors" } (shifts(master)) }
     };
     let at = report.reference_temperature_k();

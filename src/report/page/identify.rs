@@ -24,7 +24,7 @@ pub fn page(
         (list(report.lines()))
         h3 { "Moduli and times" }
         (scroll("Moduli and times", unknowns(report)))
-        (pictures.whole(figures.iter().map(|figure| &*figure.name)))
+        (pictures.whole(figures))
         h3 { "Number of branches" }
         (scroll("Numbers of branches", candidates(report)))
         h3 { "Correlations" }

@@ -30,7 +30,7 @@ pub fn page(
     lines.extend(rows.iter().flat_map(told));
     let content = html! {
         (list(&lines))
-        (pictures.whole(figures.iter().map(|figure| &*figure.name)))
+        (pictures.whole(figures))
         h3 { "Loss, phase and moduli" }
         p { "The number after ± is half the width of the 95 % interval; E′ and E″ are without the bias of the small-amplitude formula where the setup \
              gives the shape." }

@@ -6,6 +6,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use maud::{Markup, PreEscaped, html};
 
 use crate::report::chart::{ChartError, Drawing};
+use crate::report::figure::Figure;
 use crate::sweep::store::files::{CAPTION, DATA, Place};
 
 /// The pictures of a result by name, as elements of a page.
@@ -69,16 +70,20 @@ impl Pictures {
         let mut page = page.to_owned();
         for name in names {
             let reason = || html! { p { (reasons.get(*name).map_or("", String::as_str)) } };
-            let picture = self.inline(name).unwrap_or_else(reason);
-            let whole = self.captioned(name, picture.clone());
-            page = page.replace(&mark("picture", name), &picture.into_string());
-            page = page.replace(&mark("whole", name), &whole.into_string());
-            for is_still in [true, false] {
-                let mark = mark(gallery_mark(is_still), name);
+            let picture = || self.inline(name).unwrap_or_else(reason);
+            // A picture is large: only what the page has a mark for is made.
+            let mut put = |what: &str, made: &mut dyn FnMut() -> Markup| {
+                let mark = mark(what, name);
                 if page.contains(&mark) {
-                    let item = self.item(name, is_still, &mut room).into_string();
-                    page = page.replace(&mark, &item);
+                    page = page.replace(&mark, &made().into_string());
                 }
+            };
+            put("picture", &mut || picture());
+            put("whole", &mut || self.captioned(name, picture()));
+            for is_still in [true, false] {
+                put(gallery_mark(is_still), &mut || {
+                    self.item(name, is_still, &mut room)
+                });
             }
         }
         page
@@ -155,12 +160,12 @@ impl Pictures {
     }
 
     /// Figures with their pictures in the page itself, captions and links to their files.
-    pub(super) fn whole<'a>(&self, names: impl IntoIterator<Item = &'a str>) -> Markup {
+    pub(super) fn whole(&self, figures: &[Figure]) -> Markup {
         let whole = |name: &str| match self.are_marks {
             true => PreEscaped(mark("whole", name)),
             false => self.captioned(name, self.inline(name).unwrap_or_default()),
         };
-        html! { div class="gallery" { @for name in names { (whole(name)) } } }
+        html! { div class="gallery" { @for figure in figures { (whole(&figure.name)) } } }
     }
 
     /// A picture with its caption and links to its files.

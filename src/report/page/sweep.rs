@@ -2,10 +2,11 @@
 
 use maud::{Markup, html};
 
+use super::sweep_data::VariedData;
 use super::{FIGURES, Pictures, answer, cases_table, how, moduli, question, scroll, section};
 use crate::report::chart::Scale;
 use crate::report::figure::curve::Abscissa;
-use crate::report::figure::plot::Spread;
+use crate::report::figure::quantity::Spread;
 use crate::report::rigid_indenter;
 use crate::report::warnings;
 use crate::sweep::plan::{AxisValue, Block, SweepPlan};
@@ -50,16 +51,13 @@ fn of_which(plan: &SweepPlan) -> &str {
 }
 
 fn curve(plan: &SweepPlan, outcome: &Outcome, pictures: &Pictures) -> Markup {
-    let over = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
-    let abscissa = Abscissa::of(plan);
-    let (name, is_log) = match abscissa {
-        Abscissa::Frequency => (plan.figures.frequency_unit.symbol().to_string(), true),
-        Abscissa::Axis(axis) => (over[axis].name(), is_spread(plan, axis)),
-    };
-    let others = over.iter().enumerate();
-    let others = others.filter(|(axis, _)| abscissa != Abscissa::Axis(*axis));
-    let varied: Vec<String> = others.map(|(_, varied)| varied.name()).collect();
+    let (over, varied) = VariedData::of_sweep(plan);
+    let varied: Vec<String> = varied.into_iter().map(|varied| varied.name).collect();
     let varied = varied.join(", ");
+    let is_log = match Abscissa::of(plan) {
+        Abscissa::Frequency => true,
+        Abscissa::Axis(axis) => is_spread(plan, axis),
+    };
     html! {
         section aria-labelledby="answer" class="answer" {
             h2 id="answer" { "Energy loss per cycle" }
@@ -72,7 +70,7 @@ fn curve(plan: &SweepPlan, outcome: &Outcome, pictures: &Pictures) -> Markup {
             div class="live controls" role="group" aria-label="Curve" id="curve-controls" {
                 label { "Curve of " select id="quantity" {} }
                 label id="drive-choice" hidden { (varied) " " select id="drive" {} }
-                label { input type="checkbox" id="log-x" checked[is_log]; " log " (name) }
+                label { input type="checkbox" id="log-x" checked[is_log]; " log " (over.name) }
                 label { input type="checkbox" id="log-y"; " log values" }
             }
             div id="curve" class="live plot tall" {}

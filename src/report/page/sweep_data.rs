@@ -11,7 +11,7 @@ use crate::material::{Material, MaterialFunction};
 use crate::quantity::{Dimension, FrequencyUnit, ZERO_CELSIUS_K};
 use crate::report::figure::curve::Abscissa;
 use crate::report::figure::moduli::ModulusPoint;
-use crate::report::figure::plot::Quantity;
+use crate::report::figure::quantity::Quantity;
 use crate::report::material::MaterialReport;
 use crate::report::quantities::{Column, SWEEP};
 use crate::report::words::nodes_name;
@@ -48,10 +48,10 @@ pub(super) struct SweepData<'a> {
 
 /// A column of `sweep.csv` that varies, and how it is told: what its axis is called, what stands before a value, and its unit.
 #[derive(Serialize)]
-struct VariedData {
+pub(super) struct VariedData {
     column: String,
     label: String,
-    name: String,
+    pub(super) name: String,
     unit: &'static str,
     /// Where the zero of that unit lies (SI), and the factor from SI to it.
     zero: f64,
@@ -92,7 +92,7 @@ impl VariedData {
     }
 
     /// What the curves of a sweep are over, and what else varies.
-    fn of_sweep(plan: &SweepPlan) -> (Self, Vec<Self>) {
+    pub(super) fn of_sweep(plan: &SweepPlan) -> (Self, Vec<Self>) {
         let axes = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
         let control = plan.base.drive.control();
         let mut varied: Vec<Self> = axes.iter().map(|axis| Self::of(axis, control)).collect();

@@ -4,8 +4,9 @@ use super::{LOSS, Part, STORAGE, caption, frequencies, frequency, units};
 use crate::material::dynamic::replicas;
 use crate::report::dynamic::{Band, DynamicReport};
 use crate::report::figure::Figure;
-use crate::report::figure::plot::{Plot, Trace};
+use crate::report::figure::plot::Plot;
 use crate::report::figure::quantity::MODULUS;
+use crate::report::figure::trace::Trace;
 use crate::report::number::scientific;
 use crate::report::table::{cells, csv};
 

@@ -5,8 +5,10 @@ use crate::material::dynamic::DynamicPoint;
 use crate::report::chart::{LineStyle, Marker};
 use crate::report::dynamic::DynamicReport;
 use crate::report::figure::Figure;
-use crate::report::figure::plot::{Plot, Quantity, Spread};
-use crate::report::figure::quantity::{LOSS_MODULUS, STORAGE_MODULUS, TEMPERATURE};
+use crate::report::figure::plot::Plot;
+use crate::report::figure::quantity::{
+    LOSS_MODULUS, Quantity, STORAGE_MODULUS, Spread, TEMPERATURE,
+};
 
 /// The figure; `None` where there is one isotherm.
 pub(super) fn figure(report: &DynamicReport<'_>) -> Option<Figure> {

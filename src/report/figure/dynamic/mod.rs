@@ -11,7 +11,8 @@ mod van_gurp_palmen;
 use num_complex::Complex;
 
 use super::Figure;
-use super::plot::{Point, Quantity, Trace};
+use super::quantity::Quantity;
+use super::trace::{Point, Trace};
 use super::units::Units;
 use crate::material::dynamic::DynamicPoint;
 use crate::quantity;

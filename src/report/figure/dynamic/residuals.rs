@@ -5,8 +5,9 @@ use crate::material::dynamic::replicas::{self, SIMULTANEOUS_DEVIATIONS};
 use super::{LOSS, Part, STORAGE, caption, frequencies, frequency, units};
 use crate::report::dynamic::{Band, DynamicReport};
 use crate::report::figure::Figure;
-use crate::report::figure::plot::{Plot, Point, Trace};
+use crate::report::figure::plot::Plot;
 use crate::report::figure::quantity::RESIDUAL;
+use crate::report::figure::trace::{Point, Trace};
 use crate::report::table::{cells, csv};
 
 /// The figure.

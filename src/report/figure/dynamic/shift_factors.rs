@@ -7,8 +7,9 @@ use crate::report::chart::LineStyle;
 use crate::report::dynamic::DynamicReport;
 use crate::report::dynamic::{arrhenius, wlf};
 use crate::report::figure::Figure;
-use crate::report::figure::plot::{Plot, Point, Quantity, Trace};
-use crate::report::figure::quantity::TEMPERATURE;
+use crate::report::figure::plot::Plot;
+use crate::report::figure::quantity::{Quantity, TEMPERATURE};
+use crate::report::figure::trace::{Point, Trace};
 use crate::report::figure::units::Measure;
 use crate::report::number::range;
 

@@ -5,8 +5,9 @@ use crate::quantity::{Dimension, format_human};
 use crate::report::chart::Mark;
 use crate::report::dynamic::DynamicReport;
 use crate::report::figure::Figure;
-use crate::report::figure::plot::{Plot, Point, Quantity, Spread, Trace};
-use crate::report::figure::quantity::MODULUS;
+use crate::report::figure::plot::Plot;
+use crate::report::figure::quantity::{MODULUS, Quantity, Spread};
+use crate::report::figure::trace::{Point, Trace};
 use crate::report::figure::units::Measure;
 use crate::report::number::range;
 

@@ -8,8 +8,9 @@ use crate::material::dynamic::DynamicPoint;
 use crate::report::chart::{Color, Marker};
 use crate::report::dynamic::DynamicReport;
 use crate::report::figure::Figure;
-use crate::report::figure::plot::{Plot, Point, Trace};
+use crate::report::figure::plot::Plot;
 use crate::report::figure::quantity::{COMPLEX_MODULUS, PHASE_ANGLE, TEMPERATURE};
+use crate::report::figure::trace::{Point, Trace};
 use crate::report::number::scientific;
 
 /// The figure, of the points as measured.
