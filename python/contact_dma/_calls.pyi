@@ -1,5 +1,6 @@
 # Written by `contact-dma renew` from the keys of the input files.
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Executor
 from os import PathLike
 from typing import Any, Literal, TypeVar
 
@@ -51,6 +52,8 @@ def sweep(
     threads: int | None = None,
     progress: Progress | Any | None = None,
     axes: Mapping[str, Sequence[Quantity] | NDArray[Any]] | None = None,
+    executor: Executor | None = None,
+    shards: int | None = None,
 ) -> SweepResult:
     """
     Args:
@@ -85,6 +88,8 @@ def sweep(
         threads: How many; left out: as many as `CONTACT_DMA_THREADS`, `RAYON_NUM_THREADS` or `OMP_NUM_THREADS` say, and otherwise one per processor. Results do not depend on it.
         progress: A function of what is done and what there is in all, or a bar of tqdm.
         axes: Other axes than the frequency, such as `{"indenter.radius": ["5 mm", "10 mm"], "drive.amplitude": [1.0, 2.0]}`.
+        executor: Who solves the cases in other processes: a pool of `concurrent.futures` or of joblib, mpi4py or Dask (`client.get_executor()`). `threads` are then those of one shard, one where it is left out. Results do not depend on it.
+        shards: With `executor`: in how many parts the cases are handed out; left out: four for each worker.
     """
 def simulate(
     material: Material | str | PathLike[str],

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
 from typing_extensions import disjoint_base
 
-__all__ = ["BUILD", "COMMIT", "VERSION", "Body", "Cycle", "Field", "Figure", "History", "Loops", "MeasuredCycle", "Peak", "PressureLine", "PressureProfile", "Shape", "Status", "SurfaceLine", "SurfaceProfile", "Sweep", "Warning", "calls", "files_of", "identify_material", "kept_figures", "library_materials", "placed", "quantity", "schema", "write_identification"]
+__all__ = ["BUILD", "COMMIT", "VERSION", "Body", "Cycle", "Field", "Figure", "History", "Loops", "MeasuredCycle", "Peak", "PressureLine", "PressureProfile", "Shape", "Status", "SurfaceLine", "SurfaceProfile", "Sweep", "Warning", "calls", "files_of", "identify_material", "kept_figures", "library_materials", "packed_sweep", "placed", "quantity", "run_program", "schema", "solve_shard", "write_identification"]
 
 BUILD: Final[str]
 COMMIT: Final[str | None]
@@ -646,7 +646,7 @@ class Sweep:
     """
     A sweep and what it came to.
     """
-    def __new__(cls, /, origin: "object", threads: SupportsIndex | None = None, progress: Any | None = None) -> Sweep: ...
+    def __new__(cls, /, origin: "object", threads: SupportsIndex | None = None, progress: Any | None = None, records: bytes | None = None) -> Sweep: ...
     def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]": ...
     def _all_columns(self, /) -> list[tuple[str, Any]]: ...
     @property
@@ -753,6 +753,11 @@ def library_materials() -> list[tuple[str, str, str]]:
     Names and titles of the materials of the library.
     """
 
+def packed_sweep(source: NDArray[float64]) -> tuple[tuple[str, str, list[tuple[str, bytes]], bytes, int], int]:
+    """
+    A sweep that other processes are to solve in shards, and the number of its cases.
+    """
+
 def placed(text: str, block: str, place: str, name: str | None) -> str:
     """
     The text of a block at another place of a file: `block` of `text` becomes `place`, `indenter.material` say; with a name it becomes an
@@ -764,9 +769,19 @@ def quantity(text: str, si_unit: str) -> float:
     A number with its unit, in the SI unit of the quantity that is expected. Frequencies in Hz and in rad/s are read as one another.
     """
 
+def run_program(arguments: SupportsGetItem[int, str]) -> int:
+    """
+    Runs the program with these arguments, the first being its name; its exit code.
+    """
+
 def schema(kind: str) -> str:
     """
     The JSON Schema of a kind of input files, as text.
+    """
+
+def solve_shard(packed: "object", number: SupportsIndex, of: SupportsIndex, threads: SupportsIndex | None = None) -> "bytes":
+    """
+    The records of one of several shards of a sweep.
     """
 
 def write_identification(folder: str | PathLike[str], files: SupportsGetItem[int, tuple[str, SupportsGetItem[int, SupportsIndex]]], force: bool) -> None:

@@ -224,6 +224,21 @@ class Result(Table):
         """
         return {figure.name: figure for figure in self._figures()}
 
+    def figure(self, name: str) -> Figure:
+        """One of `figures`: ``result.figure("energy-loss").save("loss.pdf")``.
+
+        Example:
+            >>> import contact_dma as cd
+            >>> result = cd.sweep(cd.Material.library("pmma"), cd.Sphere("10 mm"), mean=10.0, amplitude=5.0,
+            ...                   angular_frequency=[1e-3, 1e-2, 1e-1], springs=32, steps=32)
+            >>> result.figure("loops")
+            <Figure loops>
+        """
+        figures = self.figures
+        if name not in figures:
+            raise KeyError(f"no figure {name!r}; there are: {', '.join(figures)}")
+        return figures[name]
+
     def raise_for_status(self) -> None:
         """Raises RuntimeError where something has no result, with the reasons of the first."""
         message = self._failures()

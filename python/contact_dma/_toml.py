@@ -158,9 +158,15 @@ def _number(entry: Any, unit: str, place: str) -> float:
 _SUFFIXES = {"_rad_per_s": "rad/s", "_hz": "Hz", "_pa": "Pa", "_j": "J", "_rad": "rad", "_n": "N", "_m": "m", "_s": "s", "_k": "K"}
 
 
+def split_unit(column: str) -> tuple[str, str]:
+    """The name of a column without its unit, and what it has of it."""
+    suffix = next((suffix for suffix in _SUFFIXES if column.endswith(suffix)), "")
+    return column.removesuffix(suffix), suffix
+
+
 def unit_of(column: str) -> str:
     """The SI unit that the name of a column ends with; empty where it ends with none."""
-    return next((unit for suffix, unit in _SUFFIXES.items() if column.endswith(suffix)), "")
+    return _SUFFIXES.get(split_unit(column)[1], "")
 
 
 def key(name: str) -> str:

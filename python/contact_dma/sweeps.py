@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from typing import Any, overload
+from concurrent.futures import Executor
+from typing import TYPE_CHECKING, Any, overload
 
 from . import _calls
 from . import _contact_dma as _core
@@ -12,10 +13,15 @@ from ._contact_dma import Cycle as Cycle
 from ._contact_dma import Peak as Peak
 from ._contact_dma import PressureLine as PressureLine
 from ._contact_dma import PressureProfile as PressureProfile
+from ._plot import plot_column, plot_loops
 from ._result import Result, failures, heard
+from ._shards import records_of_shards
 from ._sources import source_of, thread_count, warn_without_effect
 from .indenters import Indenter
 from .materials import Material
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
 class Cycles(Sequence[Cycle]):
@@ -65,6 +71,42 @@ class SweepResult(_core.Sweep, Result):
         """The stabilised cycle of every case."""
         return Cycles(self)
 
+    def plot(self, column: str = "energy_loss_j", *, ax: Axes | None = None, **style: Any) -> Axes:
+        """Draws a column over the load frequency, a curve for every condition, with error bars and, of the loss, the peaks; needs matplotlib.
+
+        For a picture as the program draws it, see `figure`.
+
+        Args:
+            column: one that has numbers, such as ``"loss_modulus_pa"``.
+            ax: what is drawn into; new where it is left out.
+            style: what ``ax.errorbar`` takes.
+
+        Returns:
+            the axes, for further settings.
+
+        Example:
+            >>> import contact_dma as cd
+            >>> result = cd.sweep(cd.Material.library("pmma"), cd.Sphere("10 mm"), mean=10.0, amplitude=5.0,
+            ...                   angular_frequency=[1e-3, 1e-2, 1e-1], springs=32, steps=32)
+            >>> result.plot("loss_modulus_pa").get_ylabel()
+            'loss modulus (Pa)'
+        """
+        peaks = [(peak.angular_frequency, peak.energy_loss) for peak in self.peaks] if column == "energy_loss_j" else []
+        return plot_column(self, self._axes(), column, peaks, ax, style)
+
+    def plot_loops(self, cases: Sequence[int] | None = None, *, ax: Axes | None = None, **style: Any) -> Axes:
+        """Draws the hysteresis loops, load over approach; needs matplotlib.
+
+        Args:
+            cases: their numbers, from 0; left out: five over the range, the largest loss among them.
+            ax: what is drawn into; new where it is left out.
+            style: what ``ax.plot`` takes.
+
+        Returns:
+            the axes, for further settings.
+        """
+        return plot_loops(self, cases, ax, style)
+
     def __repr__(self) -> str:
         done = sum(status.converged for status in self.status)
         peaks, warned = len(self.peaks), sum(map(bool, self.warnings))
@@ -94,6 +136,8 @@ def _sweep(
     overrides: Mapping[str, Any] | None = None,
     threads: int | None = None,
     progress: Any = None,
+    executor: Executor | None = None,
+    shards: int | None = None,
     **bodies: Any,
 ) -> SweepResult:
     """Solves the stabilised cycle at every load frequency, and locates the peaks of the energy loss.
@@ -121,7 +165,13 @@ def _sweep(
         array([ True])
     """
     source = source_of("sweep", keys, material, indenter, overrides, bodies)
-    result = SweepResult(source, thread_count(threads), heard(progress))
+    if executor is None:
+        if shards is not None:
+            raise ValueError("shards are handed to an executor, and there is none: give executor=, or leave shards out")
+        result = SweepResult(source, thread_count(threads), heard(progress))
+    else:
+        records = records_of_shards(source, executor, shards, thread_count(threads) or 1, heard(progress))
+        result = SweepResult(source, thread_count(threads), None, records)
     warn_without_effect("sweep", source, keys, result.resolved)
     result._warn_of_failures("sweep")
     return result

@@ -44,7 +44,9 @@ mod _contact_dma {
     #[pymodule_export]
     use crate::shape::Shape;
     #[pymodule_export]
-    use crate::sweep::Sweep;
+    use crate::sweep::{Sweep, packed_sweep, solve_shard};
+    use std::ffi::OsString;
+
     use contact_dma::input::{keys::FileKind, python_calls, schema as schemas};
     use contact_dma::material::library;
     use contact_dma::sweep::store::provenance;
@@ -77,6 +79,12 @@ mod _contact_dma {
         named
             .map(|(_, kind)| schemas::text(*kind))
             .ok_or_else(error)
+    }
+
+    /// Runs the program with these arguments, the first being its name; its exit code.
+    #[pyfunction]
+    fn run_program(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
+        py.detach(|| contact_dma::cli::run(arguments))
     }
 
     /// What takes keys of the input files as its arguments, as JSON.

@@ -17,19 +17,20 @@ use contact_dma::sweep::plan::{SweepPlan, Varied};
 use contact_dma::sweep::record::{self, CaseRecord, RecordedCycle};
 use contact_dma::sweep::search;
 use contact_dma::sweep::search::run::{self, Mode, Outcome, Progress};
+use contact_dma::sweep::share::shard::Shard;
 use contact_dma::sweep::store::provenance::Stopwatch;
-use contact_dma::sweep::store::{Archive, Store, merge, records};
+use contact_dma::sweep::store::{Archive, Store, checkpoint_file, merge, records};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
-use pyo3::types::{PyTuple, PyType};
+use pyo3::types::{PyBytes, PyTuple, PyType};
 
 use crate::figure::Figure;
 use crate::folder::{self, Format};
 use crate::record::{
     AxisValue, Cycle, Items, Line, Peak, PressureLine, PressureProfile, Status, Warning,
 };
-use crate::source::{Origin, Packed, reduced};
+use crate::source::{Origin, Packed, Source, reduced};
 use crate::wait::{self, Job};
 use crate::{arrays, failure};
 
@@ -88,24 +89,25 @@ impl Progress for Count {
 #[pymethods]
 impl Sweep {
     #[new]
-    #[pyo3(signature = (origin: "object", threads = None, progress = None))]
+    #[pyo3(signature = (origin: "object", threads = None, progress = None, records = None))]
     fn new(
         py: Python<'_>,
         origin: Origin<'_>,
         threads: Option<NonZeroUsize>,
         progress: Option<Bound<'_, PyAny>>,
+        records: Option<&[u8]>,
     ) -> PyResult<Self> {
         let (document, given, records, tables, is_solved, threads) = match origin {
             Origin::Call(mut source) => {
                 let (given, tables) = (source.given(), source.tables());
-                let records = Records::Memory(records::Records::default());
+                // What other processes have solved of it.
+                let records = in_memory(records.unwrap_or_default())?;
                 let document = source.document(&tables)?;
                 (document, given, records, tables, true, threads)
             }
             Origin::Packed(packed) => {
                 let (document, tables) = packed.document(py, "the pickled sweep")?;
-                let memory = records::Records::from_bytes(packed.3.as_bytes(py));
-                let records = Records::Memory(memory.ok_or_else(failure::of_other_build)?);
+                let records = in_memory(packed.3.as_bytes(py))?;
                 let threads = NonZeroUsize::new(packed.4);
                 (document, Given::default(), records, tables, false, threads)
             }
@@ -360,6 +362,55 @@ impl Sweep {
             (self.threads, cases),
         )
     }
+}
+
+/// Records as another process of the same build has handed them over.
+fn in_memory(bytes: &[u8]) -> PyResult<Records> {
+    let memory = records::Records::from_bytes(bytes);
+    Ok(Records::Memory(memory.ok_or_else(failure::of_other_build)?))
+}
+
+/// A sweep that other processes are to solve in shards, and the number of its cases.
+#[pyfunction]
+pub fn packed_sweep(py: Python<'_>, mut source: Source<'_>) -> PyResult<(Packed, usize)> {
+    let (given, tables) = (source.given(), source.tables());
+    let plan = sweep_file::plan_with(&source.document(&tables)?, &given);
+    let plan = plan.map_err(|found| failure::of_input(&found))?;
+    let cases = plan.cases().len();
+    let packed = Packed::of(py, resolved_text(&plan), &tables, &[], 1);
+    Ok((packed, cases))
+}
+
+/// The records of one of several shards of a sweep.
+#[pyfunction]
+#[pyo3(signature = (packed: "object", number, of, threads = None) -> "bytes")]
+pub fn solve_shard<'py>(
+    py: Python<'py>,
+    packed: Packed,
+    number: usize,
+    of: usize,
+    threads: Option<NonZeroUsize>,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let shard = Shard::new(number, of).map_err(|error| failure::of_value(error.to_string()))?;
+    let (document, _) = packed.document(py, "the sweep")?;
+    let plan = sweep_file::plan(&document).map_err(|found| failure::of_input(&found))?;
+    let setup = Setup::new(plan).map_err(failure::of_value)?;
+    let count = Count {
+        job: Job::of(0),
+        notes: Mutex::default(),
+    };
+    let setup = setup.interrupted_by(Arc::clone(&count.job.interrupt));
+    let memory = records::Records::default();
+    let mode = Mode::Solve {
+        threads: run::useful_threads(threads),
+        checkpoint_every: checkpoint_file::EVERY,
+        shard: Some(shard),
+    };
+    let made = wait::run(py, &count.job, None, || {
+        run::run(&setup, &memory, mode, &count.job.interrupt, &count)
+    })?;
+    made.map_err(|error| failure::of_sweep(&error))?;
+    Ok(PyBytes::new(py, &memory.to_bytes()))
 }
 
 /// Cases that are solved at once to locate a peak.
