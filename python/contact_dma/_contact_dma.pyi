@@ -753,7 +753,7 @@ def library_materials() -> list[tuple[str, str, str]]:
     Names and titles of the materials of the library.
     """
 
-def packed_sweep(source: NDArray[float64]) -> tuple[tuple[str, str, list[tuple[str, bytes]], bytes, int], int]:
+def packed_sweep(source: "object") -> "tuple[object, int]":
     """
     A sweep that other processes are to solve in shards, and the number of its cases.
     """

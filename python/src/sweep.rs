@@ -372,6 +372,7 @@ fn in_memory(bytes: &[u8]) -> PyResult<Records> {
 
 /// A sweep that other processes are to solve in shards, and the number of its cases.
 #[pyfunction]
+#[pyo3(signature = (source: "object") -> "tuple[object, int]")]
 pub fn packed_sweep(py: Python<'_>, mut source: Source<'_>) -> PyResult<(Packed, usize)> {
     let (given, tables) = (source.given(), source.tables());
     let plan = sweep_file::plan_with(&source.document(&tables)?, &given);

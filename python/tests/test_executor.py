@@ -44,7 +44,7 @@ def test_processes_that_are_spawned(alone: cd.SweepResult) -> None:
 
 
 def test_dask(alone: cd.SweepResult) -> None:
-    with distributed.Client(n_workers=2, threads_per_worker=1, dashboard_address=None) as client:
+    with distributed.Client(n_workers=2, threads_per_worker=1, dashboard_address=None) as client:  # type: ignore[no-untyped-call]
         is_same(swept(executor=client.get_executor(), shards=2), alone)
 
 
@@ -65,8 +65,8 @@ def test_an_executor_of_ones_own_and_its_progress(alone: cd.SweepResult) -> None
 
 def test_a_refined_sweep_and_one_of_several_axes() -> None:
     def study(**options: Any) -> cd.SweepResult:
-        amplitudes = ["1 N", "5 N"]
-        return cd.sweep(PMMA, SPHERE, mean="10 N", amplitude=amplitudes, angular_frequency=FREQUENCIES, springs=32, steps=32, refine=True, **options)
+        axes = {"drive.amplitude": ["1 N", "5 N"]}
+        return cd.sweep(PMMA, SPHERE, mean="10 N", axes=axes, angular_frequency=FREQUENCIES, springs=32, steps=32, refine=True, **options)
 
     is_same(study(executor=Here(), shards=3), study())
 

@@ -28,7 +28,7 @@ def test_a_curve_has_the_points_of_the_table_and_its_peak(swept: cd.SweepResult)
     curve, *_, peak = ax.get_lines()
     assert np.array_equal(curve.get_xdata(), swept["angular_frequency_rad_per_s"])
     assert np.array_equal(curve.get_ydata(), swept["energy_loss_j"])
-    assert (peak.get_xdata()[0], peak.get_ydata()[0]) == (swept.peaks[0].angular_frequency, swept.peaks[0].energy_loss)
+    assert (*np.asarray(peak.get_xdata()), *np.asarray(peak.get_ydata())) == (swept.peaks[0].angular_frequency, swept.peaks[0].energy_loss)
     assert (ax.get_xlabel(), ax.get_ylabel(), ax.get_xscale()) == ("angular frequency (rad/s)", "energy loss (J)", "log")
 
 
@@ -46,7 +46,7 @@ def test_another_column_goes_into_axes_that_are_there(swept: cd.SweepResult) -> 
 
 
 def test_a_study_has_a_curve_for_each_of_the_other_axes() -> None:
-    study = cd.sweep(PMMA, SPHERE, mean="10 N", amplitude=["1 N", "5 N"], angular_frequency=[1e-3, 1e-2, 1e-1], springs=32, steps=32)
+    study = cd.sweep(PMMA, SPHERE, mean="10 N", axes={"drive.amplitude": ["1 N", "5 N"]}, angular_frequency=[1e-3, 1e-2, 1e-1], springs=32, steps=32)
     legend = study.plot().get_legend()
     assert legend is not None
     assert [text.get_text() for text in legend.get_texts()] == ["drive amplitude: 1", "drive amplitude: 5"]
