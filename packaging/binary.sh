@@ -2,38 +2,33 @@
 # The program with completions, manual pages and licences as an archive, and its checksum: packaging/binary.sh FOLDER [TARGET]
 # On Linux it needs glibc from 2.17 on, and nothing else. The same sources give the same bytes in any folder.
 set -euo pipefail
+mkdir -p "${1:?the folder for the archive}"
+out=$(cd "$1" && pwd)
 cd "$(dirname "$0")/.."
-out=$(realpath -m "${1:?the folder for the archive}")
-host=$(rustc -vV | sed -n 's/^host: //p')
-target=${2:-$host}
+target=${2:-$(rustc -vV | sed -n 's/^host: //p')}
 . packaging/tools.sh
 . packaging/flags.sh
-folder=${CARGO_TARGET_DIR:-target}/$target/dist
+built=${CARGO_TARGET_DIR:-target}
 case "$target" in
     *-linux-gnu) cargo zigbuild --quiet --locked --profile dist --target "$target.2.17" ;;
     *-linux-*) cargo zigbuild --quiet --locked --profile dist --target "$target" ;;
     *) cargo build --quiet --locked --profile dist --target "$target" ;;
 esac
-version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
-name=contact-dma-$version-$target
+name=contact-dma-$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)-$target
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-mkdir -p "$work/$name/completions" "$out"
+mkdir -p "$work/$name/completions"
 suffix=$(case "$target" in *windows*) echo .exe ;; esac)
 program=$work/$name/contact-dma$suffix
-cp "$folder/contact-dma$suffix" "$program"
+cp "$built/$target/dist/contact-dma$suffix" "$program"
 cp README.md CHANGELOG.md CITATION.cff LICENSE-MIT LICENSE-APACHE THIRD-PARTY-NOTICES.txt src/report/fonts/LICENSE-*.txt "$work/$name"
-# Made by the program itself, where this machine can run it.
-if [ "$target" = "$host" ]; then
-    "$program" man "$work/$name/man/man1" > /dev/null
-    for shell in bash zsh fish powershell elvish; do
-        "$program" completions "$shell" > "$work/$name/completions/contact-dma.$shell"
-    done
+# What a program for another machine would print is printed by one for this machine.
+if ! "$program" --version > /dev/null 2>&1; then
+    cargo build --quiet --locked
+    program=$built/debug/contact-dma
 fi
-# In the order of names, of one date and of nobody.
-(cd "$work" && find "$name" -type f | LC_ALL=C sort > files
-    tar --create --format=ustar --owner=0 --group=0 --numeric-owner --mtime="@$SOURCE_DATE_EPOCH" --mode=u+rw,go+r,go-w --files-from=files |
-        gzip --no-name --best > "$out/$name.tar.gz")
-cd "$out"
-sha256sum "$name.tar.gz" > "$name.tar.gz.sha256"
-cat "$name.tar.gz.sha256"
+"$program" man "$work/$name/man/man1" > /dev/null
+for shell in bash zsh fish powershell elvish; do
+    "$program" completions "$shell" > "$work/$name/completions/contact-dma.$shell"
+done
+python3 packaging/archive.py "$work/$name" "$out/$name.tar.gz" "$SOURCE_DATE_EPOCH"

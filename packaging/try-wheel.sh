@@ -2,8 +2,8 @@
 # Whether a wheel is what a user needs: packaging/try-wheel.sh WHEEL. It is audited, installed into an environment that has neither Rust
 # nor this repository, and draws the energy loss of PMMA from Python and by the program, all in less than a minute.
 set -euo pipefail
+wheel=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
 cd "$(dirname "$0")/.."
-wheel=$(realpath "$1")
 . packaging/tools.sh
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -34,6 +34,7 @@ cp sweeps/pmma.toml "$work"
 cd "$work"
 ! "${clean[@]}" sh -c 'command -v cargo' || { echo "The environment is not clean."; exit 1; }
 "${clean[@]}" pip install --quiet --disable-pip-version-check "$wheel" matplotlib
+"${clean[@]}" contact-dma sweep pmma.toml --quiet --out pmma
 "${clean[@]}" python - << 'EOF'
 import numpy as np
 import contact_dma as cd
@@ -43,10 +44,14 @@ result = cd.sweep(cd.Material.library("pmma"), cd.Sphere("10 mm"), mean="10 N", 
 result.plot().figure.savefig("matplotlib.png")
 result.figure("energy-loss").save("figure.png")
 assert abs(result.peaks[0].angular_frequency / 0.00844 - 1) < 1e-3
+# The program and the module are one, and the folder of the one is read by the other.
+assert np.allclose(cd.read("pmma")["energy_loss_j"], result["energy_loss_j"], rtol=1e-9, atol=0)
 EOF
-"${clean[@]}" contact-dma sweep pmma.toml --quiet --out pmma
 "${clean[@]}" python -m contact_dma cite pmma > cited
-grep --quiet 'Spinu' cited && cmp figure.png pmma/figures/energy-loss.png && test -s matplotlib.png
+grep --quiet Spinu cited
+for picture in matplotlib.png figure.png pmma/figures/energy-loss.png; do
+    [ "$(head -c 4 "$picture" | tail -c 3)" = PNG ] || { echo "$picture is no picture."; exit 1; }
+done
 seconds=$(($(date +%s) - begin))
 echo "Installed and drawn from Python and by the program in $seconds s."
 [ "$seconds" -lt 60 ]

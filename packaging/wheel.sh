@@ -3,9 +3,10 @@
 # On Linux it is for every glibc from 2.17 on; packaging/wheel.sh FOLDER --target aarch64-unknown-linux-musl --zig \
 #     --compatibility musllinux_1_2 is for musl on another processor, whose target rustup has to have.
 set -euo pipefail
-cd "$(dirname "$0")/.."
-out=$(realpath -m "${1:?the folder for the wheel}")
+mkdir -p "${1:?the folder for the wheel}"
+out=$(cd "$1" && pwd)
 shift
+cd "$(dirname "$0")/.."
 . packaging/tools.sh
 . packaging/flags.sh
 if [ $# = 0 ] && [ "$(uname -s)" = Linux ]; then
