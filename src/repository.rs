@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use serde_json::{Value, json};
+use serde_json::json;
 
 use crate::citation;
 use crate::input::keys::{self, FileKind};
@@ -133,32 +133,54 @@ fn publication() -> [(String, Part); 3] {
     let (authors, about) = (env!("CARGO_PKG_AUTHORS"), env!("CARGO_PKG_DESCRIPTION"));
     let licences: Vec<&str> = env!("CARGO_PKG_LICENSE").split(" OR ").collect();
     let paper = citation::implemented();
-    let implemented = json!({
-        "type": "article", "title": paper.field("title"), "journal": paper.field("journal"), "doi": paper.field("doi"),
-        "authors": [{ "name": paper.field("author") }],
-    });
-    // JSON is YAML too.
-    let cff = json!({
-        "cff-version": "1.2.0", "type": "software", "title": "contact-dma", "version": version, "abstract": about,
-        "message": "Please cite the program, and what `contact-dma cite FOLDER` prints for a folder of results.",
-        "authors": [{ "name": authors }], "license": licences, "repository-code": url, "references": [implemented],
-    });
+    let of_paper = |name: &str| paper.field(name).unwrap_or_default();
+    let (given, family) = of_paper("author").rsplit_once(' ').unwrap_or_default();
+    let (title, journal, doi) = (of_paper("title"), of_paper("journal"), of_paper("doi"));
+    let (volume, year) = (of_paper("volume"), of_paper("year"));
+    let cff = format!(
+        "\
+cff-version: 1.2.0
+type: software
+title: contact-dma
+version: {version}
+abstract: >-
+  {about}
+message: Please cite the program, and what `contact-dma cite FOLDER` prints for a folder of results.
+authors:
+  - name: {authors}
+license: [{licences}]
+repository-code: {url}
+references:
+  - type: article
+    authors:
+      - given-names: {given}
+        family-names: {family}
+    title: {title}
+    journal: {journal}
+    volume: {volume}
+    year: {year}
+    doi: {doi}
+",
+        licences = licences.join(", "),
+    );
     let codemeta = json!({
         "@context": "https://doi.org/10.5063/schema/codemeta-2.0", "@type": "SoftwareSourceCode", "name": "contact-dma",
         "version": version, "description": about, "codeRepository": url, "programmingLanguage": ["Rust", "Python"],
         "author": [{ "@type": "Organization", "name": authors }],
         "license": licences.iter().map(|name| format!("https://spdx.org/licenses/{name}")).collect::<Vec<_>>(),
-        "referencePublication": format!("https://doi.org/{}", paper.field("doi").unwrap_or_default()),
+        "referencePublication": format!("https://doi.org/{doi}"),
     });
-    let whole = |value: &Value| Part::Whole(format!("{value:#}\n"));
     let urls = Part::Between(
         "[project.urls]\n# Written by `contact-dma renew`.\n".to_owned(),
         "# End.".to_owned(),
         format!("Homepage = \"{url}\"\nChangelog = \"{url}/blob/main/CHANGELOG.md\"\n"),
     );
     [
-        ("CITATION.cff".to_owned(), whole(&cff)),
-        ("codemeta.json".to_owned(), whole(&codemeta)),
+        ("CITATION.cff".to_owned(), Part::Whole(cff)),
+        (
+            "codemeta.json".to_owned(),
+            Part::Whole(format!("{codemeta:#}\n")),
+        ),
         ("python/pyproject.toml".to_owned(), urls),
     ]
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Holds every example against the printed schemas with check-jsonschema: tests/schema/run.sh PROGRAM. Ends with 77 where that
-# validator cannot be had.
+# Holds every example against the printed schemas, and CITATION.cff against its own, with check-jsonschema: tests/schema/run.sh PROGRAM.
+# Ends with 77 where that validator cannot be had.
 set -euo pipefail
 program=$(realpath "$1")
 cd "$(dirname "$0")/../.."
@@ -19,6 +19,7 @@ for kind in sweep scenario identify; do
     [ "${#files[@]}" -gt 0 ]
     "$validator" --schemafile "$folder/$kind.json" "${files[@]}"
 done
+"$validator" --builtin-schema vendor.citation-file-format CITATION.cff
 # And it refuses what is wrong.
 sed 's/^radius = .*/radius = "10 N"/' sweeps/pmma.toml >"$folder/wrong.toml"
 if "$validator" --schemafile "$folder/sweep.json" "$folder/wrong.toml" >/dev/null; then
