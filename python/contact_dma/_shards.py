@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import dataclasses
 import os
+from collections.abc import Iterator
 from concurrent.futures import Executor, as_completed
 from typing import Any
 
@@ -41,9 +41,9 @@ def records_of_shards(source: Source, executor: Executor, shards: int | None, th
     return b"".join(future.result() for future in futures)
 
 
-def _as_completed(futures: list[Any]) -> Any:
+def _as_completed(futures: list[Any]) -> Iterator[Any]:
     """As they end; in their order where they are futures of another kind."""
     try:
-        return list(as_completed(futures))
+        yield from as_completed(futures)
     except AttributeError:
-        return futures
+        yield from futures

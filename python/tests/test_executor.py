@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import multiprocessing
+import threading
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from typing import Any
 
@@ -61,6 +62,22 @@ def test_an_executor_of_ones_own_and_its_progress(alone: cd.SweepResult) -> None
     told: list[tuple[int, int]] = []
     is_same(swept(executor=Here(), shards=4, progress=lambda done, of: told.append((done, of))), alone)
     assert told == [(1, 4), (2, 4), (3, 4), (4, 4)]
+
+
+def test_progress_is_told_while_others_still_work(alone: cd.SweepResult) -> None:
+    told = threading.Event()
+
+    class LaterOnesWait(ThreadPoolExecutor):
+        def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
+            def late() -> Any:
+                assert told.wait(60), "nothing was told of the first"
+                return fn(*args, **kwargs)
+
+            wait, self.has_first = getattr(self, "has_first", False), True
+            return super().submit(late) if wait else super().submit(fn, *args, **kwargs)
+
+    with LaterOnesWait(2) as pool:
+        is_same(swept(executor=pool, shards=3, progress=lambda done, of: told.set()), alone)
 
 
 def test_a_refined_sweep_and_one_of_several_axes() -> None:
