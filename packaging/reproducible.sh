@@ -6,8 +6,11 @@ cd "$(dirname "$0")/.."
 export TOOLS=$tools
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+# Both of one commit, whatever is committed meanwhile.
 for folder in one another/folder; do
     git clone --quiet . "$work/$folder"
+done
+for folder in one another/folder; do
     (unset CARGO_TARGET_DIR; "$work/$folder/packaging/binary.sh" "$work/$folder/made")
 done
 cmp "$work"/one/made/*.tar.gz "$work"/another/folder/made/*.tar.gz
