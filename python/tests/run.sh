@@ -30,6 +30,9 @@ if [ $# -lt 2 ]; then
     # With what the stubs are written from, so that one build does for both.
     maturin build --quiet --strip --profile dev --features stubs --manifest-path python/Cargo.toml --interpreter "$python" --out "$work/wheels"
     set -- "$program" "$work"/wheels/*.whl
+else
+    # A wheel of a release has the program of that release, whose folders name its commit.
+    program=$work/venv/bin/contact-dma
 fi
 "$python" -m pip install --quiet --disable-pip-version-check --no-deps "$2"
 # Away from the sources, so that what is tested is what was installed.

@@ -12,7 +12,14 @@ use crate::sweep::plan::figures::FigurePlan;
 /// does not tell.
 fn free_bytes() -> Option<u64> {
     let what = RefreshKind::nothing().with_memory(MemoryRefreshKind::nothing().with_ram());
-    let system = System::new_with_specifics(what);
+    free_bytes_of(&System::new_with_specifics(what))
+}
+
+fn free_bytes_of(system: &System) -> Option<u64> {
+    // Where /proc is not mounted, as in a bare root folder. The limits of a container are refused then, by a panic.
+    if system.total_memory() == 0 {
+        return None;
+    }
     // What files have left in memory counts as used there, but makes room.
     let limit = (system.cgroup_limits()).map(|l| l.total_memory.saturating_sub(l.rss));
     let free = match (system.available_memory(), limit) {
@@ -93,6 +100,11 @@ mod tests {
         );
         let said = warning(9 * GIGA, 1, 5 * GIGA).unwrap();
         assert!(said.contains("about 9.0 GB of memory will") && said.contains("more memory"));
+    }
+
+    #[test]
+    fn a_system_that_tells_nothing_is_taken_as_it_is() {
+        assert_eq!(free_bytes_of(&System::new()), None);
     }
 
     #[test]
