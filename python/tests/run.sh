@@ -9,17 +9,11 @@ target=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export TMPDIR="$work"
-if ! python3 -c 'import sys, venv; sys.exit(sys.version_info < (3, 10))' 2> /dev/null; then
-    echo "There is no Python of version 3.10 or later with venv."
-    exit 77
-fi
-python3 -m venv "$work/venv" || { echo "No virtual environment can be made."; exit 77; }
+. .ci/venv.sh
+python_from 10
+environment "$work/venv" maturin numpy pandas pandas-stubs pytest mypy matplotlib joblib distributed tqdm types-tqdm joblib-stubs pint \
+    astropy xarray nbclient nbformat ipykernel
 python="$work/venv/bin/python"
-if ! "$python" -m pip install --quiet --disable-pip-version-check --retries 1 \
-    maturin numpy pandas pandas-stubs pytest mypy matplotlib joblib distributed tqdm types-tqdm joblib-stubs pint astropy xarray nbclient nbformat ipykernel; then
-    echo "Packages cannot be installed from PyPI."
-    exit 77
-fi
 for name in LICENSE-MIT LICENSE-APACHE src/report/fonts/LICENSE-*.txt; do
     cmp "$name" "python/licenses/$(basename "$name")"
 done

@@ -6,9 +6,9 @@ program=$(realpath "${1:?the program to test}")
 root=$(cd "$(dirname "$0")/../.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-python3 -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "snakemake: there is no Python 3.11"; exit 77; }
-python3 -m venv "$work/venv" || exit 77
-"$work/venv/bin/pip" install --quiet --disable-pip-version-check --retries 1 snakemake || exit 77
+. "$root/.ci/venv.sh"
+python_from 11
+environment "$work/venv" snakemake
 mkdir "$work/bin" "$work/a folder"
 ln -s "$program" "$work/bin/contact-dma"
 export PATH="$work/bin:$work/venv/bin:$PATH" XDG_CACHE_HOME="$work/cache"
