@@ -61,6 +61,7 @@
 //! | [`history`] | viscoelastic memory and time marching |
 //! | [`cycle`] | signals of one cycle, measured or computed |
 //! | [`steady`] | the stabilised cycle found directly |
+//! | [`adhesive`] | contacts of bodies of revolution that attract one another, on springs whose edges move within a step |
 //! | [`mod@reference`] | closed forms and slow independent solvers; of the production modules only `reproduction` uses it |
 //! | [`engine`] | engines for an indenter, on a domain that holds the contact |
 //! | [`sweep`] | plans, cases in parallel, records on disk, peaks |
@@ -87,8 +88,8 @@
 
 #[doc(inline)]
 pub use contact_dma_core::{
-    contact, cycle, drive, engine, history, identify, indenter, material, measured, numerics,
-    prelude, quantity, reference, simulation, steady, sweep,
+    adhesive, contact, cycle, drive, engine, history, identify, indenter, material, measured,
+    numerics, prelude, quantity, reference, simulation, steady, sweep,
 };
 
 #[cfg(feature = "cli")]

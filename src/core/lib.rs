@@ -3,6 +3,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod adhesive;
 pub mod contact;
 pub mod cycle;
 pub mod drive;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules from top to bottom: those of the package in `src/core`, then those of the program.
-const MODULES: [&str; 24] = [
+const MODULES: [&str; 25] = [
     "transforms",
     "numerics",
     "quantity",
@@ -15,6 +15,7 @@ const MODULES: [&str; 24] = [
     "history",
     "cycle",
     "steady",
+    "adhesive",
     "reference",
     "engine",
     "sweep",

@@ -102,6 +102,8 @@ pub enum ContactError {
     },
     #[error("interrupted")]
     Interrupted,
+    #[error("a load of {load_n:e} N pulls the surfaces apart: no contact bears it")]
+    PulledOff { load_n: f64 },
     #[error("{reason}")]
     Operator { reason: String },
     #[error("the prescribed {what} is {value}: it must be finite{also}")]

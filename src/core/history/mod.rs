@@ -53,5 +53,6 @@ pub use hereditary::{Hereditary, PastState};
 pub use march::{March, Observer, StepState};
 pub use memory::Memory;
 pub use nodal_work::NodalWork;
+pub(crate) use rule::linear_weight;
 pub use rule::{DirectWeights, Recursion, Stage, Step, StepWeights, TimeRule, order_of_steps};
 pub use work::Work;

@@ -264,7 +264,7 @@ pub(super) fn rings(compliance: &Creep) -> bool {
 }
 
 /// 1 - (1 - exp(-z))/z, by its Taylor series where the difference would lose digits.
-pub(super) fn linear_weight(z: f64) -> f64 {
+pub(crate) fn linear_weight(z: f64) -> f64 {
     // At z = 0.3 the difference loses less than one digit; ten terms of the series leave 0.3^10 / 11! = 1e-13 of the first.
     if z > 0.3 {
         return 1.0 + (-z).exp_m1() / z;

@@ -1,6 +1,7 @@
 //! Reference solutions, each with its source, and slow independent solvers. Tests, benches and users compare with them;
 //! nothing that computes results for a user rests on them.
 
+pub mod adhesive;
 #[cfg(test)]
 mod direct_sum;
 pub mod elastic;

@@ -45,6 +45,7 @@ mod iteration;
 mod newton;
 mod remaining;
 
+pub(crate) use anderson::Anderson;
 pub use iteration::{Cycle, Steady, SteadySettings, find};
 pub(crate) use newton::find_by_newton;
 pub use remaining::Remaining;
