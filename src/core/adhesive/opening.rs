@@ -62,7 +62,8 @@ impl Springs<'_> {
             let retarded_m = if spring == end {
                 self.retarded_at_m(at) + self.along_m(weights, at, zone_m)
             } else if spring < self.inside {
-                self.leave(weights, spring, &to, [&mut forces, &mut own]);
+                own.copy_from_slice(&self.memory[self.branches_of(spring)]);
+                self.leave(weights, at, &to, [&mut forces, &mut own]);
                 self.body.retarded_m(&forces)
             } else {
                 self.retarded_m[spring] + self.along_m(weights, at, zone_m)

@@ -41,10 +41,10 @@ impl Springs<'_> {
         }
     }
 
-    /// The fraction of the step at which the contact's edge passes a spring.
-    pub(super) fn passed_at(&self, spring: usize, to: &Edges) -> f64 {
+    /// The fraction of the step at which the contact's edge passes a place.
+    pub(super) fn passed_at(&self, x_m: f64, to: &Edges) -> f64 {
         let from_m = self.now.contact_m;
-        ((self.place_m[spring] - from_m) / (to.contact_m - from_m)).clamp(0.0, 1.0)
+        ((x_m - from_m) / (to.contact_m - from_m)).clamp(0.0, 1.0)
     }
 
     /// Loads branches of creep for a share of the step in which the edge of the zone moves like this, in the same parts as a whole
@@ -77,22 +77,22 @@ impl Springs<'_> {
         }
     }
 
-    /// The forces of the branches, after the step, of a spring that leaves the contact in it.
+    /// The forces of the branches, after the step, of a spring at `x_m` that leaves the contact in it, from their displacements before.
     pub(super) fn leave(
         &self,
         weights: &StepWeights,
-        spring: usize,
+        x_m: f64,
         to: &Edges,
-        [forces, own]: [&mut [f64]; 2],
+        [forces, displacements_m]: [&mut [f64]; 2],
     ) {
-        let (now, share) = (&self.now, self.passed_at(spring, to));
-        own.copy_from_slice(&self.memory[self.branches_of(spring)]);
+        let (now, share) = (&self.now, self.passed_at(x_m, to));
         let approach_m = now.approach_m + share * (to.approach_m - now.approach_m);
-        self.displace(share * weights.step_s, (now.approach_m, approach_m), own);
-        own.iter_mut().for_each(|e| *e -= self.gap_m[spring]);
-        self.body.forces(own, forces);
+        let ends = (now.approach_m, approach_m);
+        self.displace(share * weights.step_s, ends, displacements_m);
+        let gap_m = self.profile.transformed_gap_m(x_m);
+        displacements_m.iter_mut().for_each(|e| *e -= gap_m);
+        self.body.forces(displacements_m, forces);
         let zone_m = now.zone_m + share * (to.zone_m - now.zone_m);
-        let x_m = self.place_m[spring];
         self.attract(weights, 1.0 - share, x_m, (zone_m, to.zone_m), forces);
     }
 
@@ -104,8 +104,8 @@ impl Springs<'_> {
         to: &Edges,
         [displacements_m, own]: [&mut [f64]; 2],
     ) {
-        let (now, share) = (&self.now, self.passed_at(spring, to));
         let x_m = self.place_m[spring];
+        let (now, share) = (&self.now, self.passed_at(x_m, to));
         own.copy_from_slice(&self.memory[self.branches_of(spring)]);
         let zone_m = now.zone_m + share * (to.zone_m - now.zone_m);
         self.attract(weights, share, x_m, (now.zone_m, zone_m), own);

@@ -375,8 +375,16 @@ impl<'a> Springs<'a> {
         let gap_m = self.profile.transformed_gap_m(to.contact_m);
         let [mut new, mut own] = std::mem::take(&mut self.scratch);
         let mut at_zone = vec![0.0; branches];
-        self.forces_at(to.zone_m, &mut at_zone);
-        self.load_along(weights, to.zone_m, to.zone_m, &mut at_zone);
+        match to.zone_m < now.contact_m {
+            true => {
+                self.displacements_at(to.zone_m, &mut own);
+                self.leave(weights, to.zone_m, &to, [&mut at_zone, &mut own]);
+            }
+            false => {
+                self.forces_at(to.zone_m, &mut at_zone);
+                self.load_along(weights, to.zone_m, to.zone_m, &mut at_zone);
+            }
+        }
         let mut at_contact = [vec![0.0; branches], vec![0.0; branches]];
         let [displacements_m, forces] = &mut at_contact;
         if to.contact_m > 0.0 && to.contact_m < now.contact_m {
@@ -407,7 +415,10 @@ impl<'a> Springs<'a> {
                     memory.for_each(|(e, w)| w.drive(e, (now.approach_m, to.approach_m)));
                     continue;
                 }
-                (true, false) => self.leave(weights, spring, &to, [&mut new, &mut own]),
+                (true, false) => {
+                    own.copy_from_slice(&self.memory[range.clone()]);
+                    self.leave(weights, self.place_m[spring], &to, [&mut new, &mut own]);
+                }
                 (false, true) => self.enter(weights, spring, &to, [&mut new, &mut own]),
                 (false, false) => {
                     new.copy_from_slice(&self.memory[range.clone()]);
@@ -415,7 +426,7 @@ impl<'a> Springs<'a> {
                 }
             }
             if (spring < self.inside) != (spring < inside) {
-                let at_s = self.time_s + self.passed_at(spring, &to) * weights.step_s;
+                let at_s = self.time_s + self.passed_at(self.place_m[spring], &to) * weights.step_s;
                 self.changes_s[spring].push(at_s);
             }
             self.memory[range].copy_from_slice(&new);
