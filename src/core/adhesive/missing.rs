@@ -33,13 +33,22 @@ impl Springs<'_> {
             }
             sum_s / period_s
         };
+        // What a branch changed at the beginning does to the mean of the force over the cycle.
+        let branches_of_body = self
+            .body
+            .moduli_pa
+            .iter()
+            .zip(&self.body.relaxation_times_s);
+        let moduli_pa: Vec<f64> = branches_of_body
+            .map(|(modulus, time_s)| modulus * -(-period_s / time_s).exp_m1() * time_s / period_s)
+            .collect();
         let (mut relaxing, mut stiffness) = (0.0, 0.0);
         for (spring, change) in change.chunks_exact_mut(branches).enumerate() {
             let changes_s = &self.changes_s[spring];
             let in_contact = (spring < self.inside) != (changes_s.len() % 2 == 1);
             missing(self.body, in_contact, changes_s, period_s, change);
             let weight = share(spring) * self.width_m(spring);
-            let branches = self.body.moduli_pa.iter().zip(&*change);
+            let branches = moduli_pa.iter().zip(&*change);
             relaxing += weight * branches.map(|(modulus, e)| modulus * e).sum::<f64>();
             stiffness += weight * self.body.equilibrium_modulus_pa;
         }
