@@ -8,9 +8,9 @@
 //! e_k = sum of C_j lambda_j / (lambda_j - tau_k) m_j        m_j = sum of E_k tau_k / (lambda_j - tau_k) e_k
 //! ```
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVectorView, DVectorViewMut};
 
-use crate::material::{Creep, MaterialError};
+use crate::material::{Creep, CreepBranch, MaterialError};
 
 /// A body in both forms.
 #[derive(Debug, Clone)]
@@ -21,9 +21,9 @@ pub struct Body {
     pub equilibrium_modulus_pa: f64,
     pub moduli_pa: Vec<f64>,
     pub relaxation_times_s: Vec<f64>,
-    /// Row by row.
-    displacements_of_forces: Vec<f64>,
-    forces_of_displacements: Vec<f64>,
+    /// What makes displacements of relaxation of forces of creep, and the inverse.
+    pub(super) displacements_of_forces: DMatrix<f64>,
+    pub(super) forces_of_displacements: DMatrix<f64>,
 }
 
 impl Body {
@@ -44,7 +44,7 @@ impl Body {
         if let Some(viscosity_pa_s) = creep.viscosity_pa_s() {
             let longest_s = branches.last().map_or(time_s, |b| b.time_s.max(time_s));
             let time_s = longest_s / Self::SPARE;
-            branches.push(crate::material::CreepBranch {
+            branches.push(CreepBranch {
                 compliance_per_pa: time_s / viscosity_pa_s,
                 time_s,
             });
@@ -52,17 +52,14 @@ impl Body {
         let creep = Creep::new(instantaneous, branches, None)?;
         let relaxation = creep.to_relaxation()?;
         let (retarded, relaxed) = (creep.branches(), relaxation.branches());
-        let to_displacements = relaxed.iter().flat_map(|r| {
-            let of = |c: &crate::material::CreepBranch| {
-                c.compliance_per_pa * c.time_s / (c.time_s - r.time_s)
-            };
-            retarded.iter().map(of)
+        let count = retarded.len();
+        let displacements_of_forces = DMatrix::from_fn(count, count, |k, j| {
+            let (c, relaxation_s) = (retarded[j], relaxed[k].time_s);
+            c.compliance_per_pa * c.time_s / (c.time_s - relaxation_s)
         });
-        let to_forces = retarded.iter().flat_map(|c| {
-            let of = |r: &crate::material::RelaxationBranch| {
-                r.modulus_pa * r.time_s / (c.time_s - r.time_s)
-            };
-            relaxed.iter().map(of)
+        let forces_of_displacements = DMatrix::from_fn(count, count, |j, k| {
+            let (r, retardation_s) = (relaxed[k], retarded[j].time_s);
+            r.modulus_pa * r.time_s / (retardation_s - r.time_s)
         });
         Ok(Self {
             instantaneous_compliance_per_pa: instantaneous,
@@ -71,8 +68,8 @@ impl Body {
             equilibrium_modulus_pa: relaxation.equilibrium_modulus(),
             moduli_pa: relaxed.iter().map(|b| b.modulus_pa).collect(),
             relaxation_times_s: relaxed.iter().map(|b| b.time_s).collect(),
-            displacements_of_forces: to_displacements.collect(),
-            forces_of_displacements: to_forces.collect(),
+            displacements_of_forces,
+            forces_of_displacements,
         })
     }
 
@@ -85,8 +82,8 @@ impl Body {
             equilibrium_modulus_pa: self.equilibrium_modulus_pa,
             moduli_pa: Vec::new(),
             relaxation_times_s: Vec::new(),
-            displacements_of_forces: Vec::new(),
-            forces_of_displacements: Vec::new(),
+            displacements_of_forces: DMatrix::zeros(0, 0),
+            forces_of_displacements: DMatrix::zeros(0, 0),
         }
     }
 
@@ -105,18 +102,10 @@ impl Body {
         multiply(&self.forces_of_displacements, displacements_m, forces);
     }
 
-    /// Both maps, to displacements and to forces.
-    pub(super) fn maps(&self) -> (DMatrix<f64>, DMatrix<f64>) {
-        let of = |rows: &[f64]| DMatrix::from_row_slice(self.branches(), self.branches(), rows);
-        (
-            of(&self.displacements_of_forces),
-            of(&self.forces_of_displacements),
-        )
-    }
-
     /// What the past adds to the displacement (m) of a spring with these forces (N/m) of its branches.
     pub fn retarded_m(&self, forces: &[f64]) -> f64 {
-        dot(&self.compliances_per_pa, forces)
+        let branches = self.compliances_per_pa.iter().zip(forces);
+        branches.map(|(per_pa, force)| per_pa * force).sum()
     }
 
     /// Force (N/m) of a spring that is displaced by `displacement_m` from where it is free, and its branches of relaxation by these.
@@ -127,13 +116,8 @@ impl Body {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn multiply(matrix: &[f64], vector: &[f64], product: &mut [f64]) {
-    let rows = matrix.chunks_exact(vector.len().max(1));
-    for (entry, row) in product.iter_mut().zip(rows) {
-        *entry = dot(row, vector);
-    }
+fn multiply(matrix: &DMatrix<f64>, vector: &[f64], product: &mut [f64]) {
+    let count = vector.len();
+    let vector = DVectorView::from_slice(vector, count);
+    DVectorViewMut::from_slice(product, count).gemv(1.0, matrix, &vector, 0.0);
 }

@@ -307,25 +307,32 @@ fn distance(before: &[Edges], now: &[Edges]) -> f64 {
 }
 
 impl State {
+    /// The spring before a place, or the first or last but one, and the share of the next.
+    fn beside(&self, x_m: f64) -> (usize, f64) {
+        let next = self.place_m.partition_point(|place_m| *place_m <= x_m);
+        let next = next.clamp(1, self.place_m.len() - 1);
+        let (from_m, to_m) = (self.place_m[next - 1], self.place_m[next]);
+        let share = (x_m - from_m) / (to_m - from_m);
+        (next - 1, share.clamp(0.0, 1.0))
+    }
+
     /// The same at the places of other springs.
     fn at(&self, springs: &Springs<'_>) -> Self {
         let branches = springs.body.branches();
         let place_m = springs.places_m().to_vec();
-        let own = self.place_m.len();
+        let own = self.place_m.len() * branches;
         let mut displacements_m = Vec::with_capacity((place_m.len() + 2) * branches);
         for x_m in &place_m {
-            let right = self
-                .place_m
-                .partition_point(|place_m| place_m <= x_m)
-                .clamp(1, own - 1);
-            let (from_m, to_m) = (self.place_m[right - 1], self.place_m[right]);
-            let share = ((x_m - from_m) / (to_m - from_m)).clamp(0.0, 1.0);
-            for branch in 0..branches {
-                let of = |spring: usize| self.displacements_m[spring * branches + branch];
-                displacements_m.push(of(right - 1) + share * (of(right) - of(right - 1)));
+            let (spring, share) = self.beside(*x_m);
+            for at in spring * branches..(spring + 1) * branches {
+                let (left, right) = (
+                    self.displacements_m[at],
+                    self.displacements_m[at + branches],
+                );
+                displacements_m.push(left + share * (right - left));
             }
         }
-        displacements_m.extend_from_slice(&self.displacements_m[own * branches..]);
+        displacements_m.extend_from_slice(&self.displacements_m[own..]);
         Self {
             place_m,
             displacements_m,
@@ -337,23 +344,13 @@ impl State {
     fn moved_to(&self, displacements_m: &[f64], branches: usize) -> Self {
         let mut moved = self.clone();
         let own = displacements_m.len();
-        let last = self.place_m.len() - 1;
-        for (edge, x_m) in [self.edges.contact_m, self.edges.zone_m]
-            .into_iter()
-            .enumerate()
-        {
-            let right = self
-                .place_m
-                .partition_point(|place_m| *place_m <= x_m)
-                .clamp(1, last);
-            let (from_m, to_m) = (self.place_m[right - 1], self.place_m[right]);
-            let share = ((x_m - from_m) / (to_m - from_m)).clamp(0.0, 1.0);
+        let by = |at: usize| displacements_m[at] - self.displacements_m[at];
+        let edges_m = [self.edges.contact_m, self.edges.zone_m];
+        for (edge, x_m) in edges_m.into_iter().enumerate() {
+            let (spring, share) = self.beside(x_m);
             for branch in 0..branches {
-                let by = |spring: usize| {
-                    let at = spring * branches + branch;
-                    displacements_m[at] - self.displacements_m[at]
-                };
-                let moved_m = by(right - 1) + share * (by(right) - by(right - 1));
+                let at = spring * branches + branch;
+                let moved_m = by(at) + share * (by(at + branches) - by(at));
                 moved.displacements_m[own + edge * branches + branch] += moved_m;
             }
         }

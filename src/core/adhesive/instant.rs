@@ -280,8 +280,7 @@ impl Curve<'_> {
         if surplus.abs() <= self.tolerance {
             return Ok(edges);
         }
-        let grows = surplus < 0.0;
-        if !grows && from_m > 0.0 {
+        if surplus > 0.0 && from_m > 0.0 {
             // The edge that recedes, of which a spring is still in contact.
             let inner_m = from_m * (1.0 - 1e-13);
             let (receding, lower) = self.at(springs, inner_m)?;
@@ -301,6 +300,17 @@ impl Curve<'_> {
             }
             surplus = lower;
         }
+        self.go_on(springs, (from_m, surplus))
+    }
+
+    /// The first instant from a place on the curve, whose surplus tells the direction.
+    fn go_on(
+        &mut self,
+        springs: &mut Springs<'_>,
+        (mut from_m, mut surplus): (f64, f64),
+    ) -> Result<Edges, ContactError> {
+        let scale_m = self.scale_m;
+        let grows = surplus < 0.0;
         // Short enough that the curve does not turn twice on the way.
         let longest_m = 0.02 * scale_m;
         let moved_m = springs.search.moved_m.abs();
@@ -336,7 +346,7 @@ impl Curve<'_> {
                     Prescribed::LoadN(load_n) => Err(ContactError::PulledOff { load_n }),
                     Prescribed::ApproachM(approach_m) => {
                         // Without an attraction before, nothing came off.
-                        springs.search.jumped = turned && now.zone_m > 0.0;
+                        springs.search.jumped = turned && springs.now.zone_m > 0.0;
                         Ok(Edges {
                             approach_m,
                             ..Edges::default()

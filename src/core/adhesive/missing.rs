@@ -20,19 +20,6 @@ impl Springs<'_> {
         if branches == 0 {
             return;
         }
-        // The share of the cycle in which each spring is in contact.
-        let share = |spring: usize| {
-            let changes_s = &self.changes_s[spring];
-            let mut in_contact = (spring < self.inside) != (changes_s.len() % 2 == 1);
-            let (mut from_s, mut sum_s) = (0.0, 0.0);
-            for end_s in changes_s.iter().chain([&period_s]) {
-                if in_contact {
-                    sum_s += end_s - from_s;
-                }
-                (in_contact, from_s) = (!in_contact, *end_s);
-            }
-            sum_s / period_s
-        };
         // What a branch changed at the beginning does to the mean of the force over the cycle.
         let branches_of_body = self
             .body
@@ -43,21 +30,38 @@ impl Springs<'_> {
             .map(|(modulus, time_s)| modulus * -(-period_s / time_s).exp_m1() * time_s / period_s)
             .collect();
         let (mut relaxing, mut stiffness) = (0.0, 0.0);
+        let mut shares = Vec::with_capacity(self.place_m.len());
         for (spring, change) in change.chunks_exact_mut(branches).enumerate() {
-            let changes_s = &self.changes_s[spring];
-            let in_contact = (spring < self.inside) != (changes_s.len() % 2 == 1);
-            missing(self.body, in_contact, changes_s, period_s, change);
-            let weight = share(spring) * self.width_m(spring);
+            let spells = self.spells(spring, period_s);
+            missing(self.body, &spells, period_s, change);
+            let touching = spells.iter().filter(|(in_contact, _)| *in_contact);
+            let share = touching.map(|(_, time_s)| time_s).sum::<f64>() / period_s;
+            let weight = share * self.width_m(spring);
             let branches = moduli_pa.iter().zip(&*change);
             relaxing += weight * branches.map(|(modulus, e)| modulus * e).sum::<f64>();
             stiffness += weight * self.body.equilibrium_modulus_pa;
+            shares.push(share);
         }
         if keeps_load && stiffness > 0.0 {
-            for (spring, change) in change.chunks_exact_mut(branches).enumerate() {
-                let shift_m = share(spring) * relaxing / stiffness;
+            for (share, change) in shares.iter().zip(change.chunks_exact_mut(branches)) {
+                let shift_m = share * relaxing / stiffness;
                 change.iter_mut().for_each(|e| *e += shift_m);
             }
         }
+    }
+
+    /// The spells of a spring in the cycle, one after the other: whether in contact, and how long (s).
+    fn spells(&self, spring: usize, period_s: f64) -> Vec<(bool, f64)> {
+        let changes_s = &self.changes_s[spring];
+        let mut in_contact = (spring < self.inside) != (changes_s.len() % 2 == 1);
+        let mut from_s = 0.0;
+        let ends = changes_s.iter().chain([&period_s]);
+        let spell = |end_s: &f64| {
+            let spell = (in_contact, end_s - from_s);
+            (in_contact, from_s) = (!in_contact, *end_s);
+            spell
+        };
+        ends.map(spell).collect()
     }
 
     /// The width (m) that a spring stands for.
@@ -81,19 +85,13 @@ impl Springs<'_> {
     }
 }
 
-/// Turns what a cycle changed in the branches of a spring, of which it left contact and came into it at these times (s) after its
-/// beginning, into what is missing to the memory that it would not change.
-fn missing(
-    body: &Body,
-    starts_in_contact: bool,
-    changes_s: &[f64],
-    period_s: f64,
-    change: &mut [f64],
-) {
+/// Turns what a cycle of these spells, in contact or not and so long (s), changed in the branches of a spring into what is missing to the
+/// memory that it would not change.
+fn missing(body: &Body, spells: &[(bool, f64)], period_s: f64, change: &mut [f64]) {
     let count = body.branches();
-    let forgotten = |time_s: &f64| -(-period_s / time_s).exp_m1();
-    if changes_s.is_empty() {
-        if starts_in_contact {
+    if let [(in_contact, _)] = spells {
+        let forgotten = |time_s: &f64| -(-period_s / time_s).exp_m1();
+        if *in_contact {
             let branches = change.iter_mut().zip(&body.relaxation_times_s);
             branches.for_each(|(e, time_s)| *e /= forgotten(time_s));
             return;
@@ -105,7 +103,6 @@ fn missing(
         body.displacements_m(&forces, change);
         return;
     }
-    let (to_displacements, to_forces) = body.maps();
     let fade = |mut cycle: DMatrix<f64>, times_s: &[f64], time_s: f64| {
         for (mut row, own_s) in cycle.row_iter_mut().zip(times_s) {
             row *= (-time_s / own_s).exp();
@@ -113,17 +110,14 @@ fn missing(
         cycle
     };
     let mut cycle = DMatrix::<f64>::identity(count, count);
-    let (mut in_contact, mut from_s) = (starts_in_contact, 0.0);
-    for end_s in changes_s.iter().chain([&period_s]) {
-        let time_s = end_s - from_s;
+    for &(in_contact, time_s) in spells {
         cycle = match in_contact {
             true => fade(cycle, &body.relaxation_times_s, time_s),
             false => {
-                let forces = fade(&to_forces * cycle, &body.retardation_times_s, time_s);
-                &to_displacements * forces
+                let forces = &body.forces_of_displacements * cycle;
+                &body.displacements_of_forces * fade(forces, &body.retardation_times_s, time_s)
             }
         };
-        (in_contact, from_s) = (!in_contact, *end_s);
     }
     let left = DMatrix::identity(count, count) - cycle;
     if let Some(solved) = left.lu().solve(&DVector::from_column_slice(change)) {

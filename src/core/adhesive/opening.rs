@@ -102,15 +102,8 @@ impl Springs<'_> {
                     (to.contact_m, force + equilibrium_pa * gap_m)
                 } else {
                     self.enter(weights, spring, to, [&mut displacements_m, &mut own]);
-                    let gap_m = self.gap_m[spring];
-                    let e = displacements_m.iter().map(|e| to.approach_m - e);
-                    let relaxing: f64 = self.body.moduli_pa.iter().zip(e).map(|(m, e)| m * e).sum();
-                    (
-                        self.place_m[spring],
-                        relaxing
-                            + equilibrium_pa * (to.approach_m - gap_m)
-                            + equilibrium_pa * gap_m,
-                    )
+                    let force = self.body.force(to.approach_m, &displacements_m);
+                    (self.place_m[spring], force)
                 };
                 sum += 0.5 * (last.1.unwrap_or(force) + force) * (x_m - last.0);
                 last = (x_m, Some(force));

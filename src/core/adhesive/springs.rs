@@ -186,10 +186,7 @@ impl<'a> Springs<'a> {
         let (displacements_m, edges) = state.parts();
         let branches = self.body.branches();
         self.now = edges;
-        self.inside = match edges.contact_m > 0.0 {
-            true => self.place_m.partition_point(|x_m| *x_m <= edges.contact_m),
-            false => 0,
-        };
+        self.inside = self.springs_within(edges.contact_m);
         let body = self.body;
         let forces = |displacements_m: &[f64], gap_m: f64, forces: &mut [f64]| {
             let free_m: Vec<f64> = displacements_m.iter().map(|e| e - gap_m).collect();
@@ -257,6 +254,14 @@ impl<'a> Springs<'a> {
         }
     }
 
+    /// How many springs a contact of this radius (m) has.
+    fn springs_within(&self, contact_m: f64) -> usize {
+        match contact_m > 0.0 {
+            true => self.place_m.partition_point(|x_m| *x_m <= contact_m),
+            false => 0,
+        }
+    }
+
     /// The last spring at or before a place.
     pub(super) fn before(&self, x_m: f64) -> usize {
         self.place_m
@@ -284,16 +289,14 @@ impl<'a> Springs<'a> {
         if x_m < zone_m && right.1 > zone_m {
             right = (Place::Zone, zone_m);
         }
-        let of = |from: f64, at: f64, to: f64| (at - from) / (to - from);
         let share = match x_m < zone_m {
-            true => of(
-                root(zone_m, left.1),
-                root(zone_m, x_m),
-                root(zone_m, right.1),
-            ),
-            false => of(left.1, x_m, right.1),
+            true => {
+                let [from, at, to] = [left.1, x_m, right.1].map(|x_m| root(zone_m, x_m));
+                share(from, at, to)
+            }
+            false => share(left.1, x_m, right.1),
         };
-        (left.0, right.0, if share.is_finite() { share } else { 0.0 })
+        (left.0, right.0, share)
     }
 
     /// The same in contact.
@@ -303,16 +306,8 @@ impl<'a> Springs<'a> {
             true => (Place::Spring(spring + 1), self.place_m[spring + 1]),
             false => (Place::Contact, self.now.contact_m),
         };
-        let share = (x_m - self.place_m[spring]) / (next_m - self.place_m[spring]);
-        (
-            spring,
-            next,
-            if share.is_finite() {
-                share.min(1.0)
-            } else {
-                0.0
-            },
-        )
+        let share = share(self.place_m[spring], x_m, next_m);
+        (spring, next, share.min(1.0))
     }
 
     /// What the past adds (m) to the displacement of a spring out of contact at `x_m`, in the step begun.
@@ -401,12 +396,7 @@ impl<'a> Springs<'a> {
             self.body.displacements_m(forces, displacements_m);
             displacements_m.iter_mut().for_each(|e| *e += gap_m);
         }
-        let inside = match to.contact_m > 0.0 {
-            true => self
-                .place_m
-                .partition_point(|place_m| *place_m <= to.contact_m),
-            false => 0,
-        };
+        let inside = self.springs_within(to.contact_m);
         for spring in 0..self.place_m.len() {
             let range = self.branches_of(spring);
             match (spring < self.inside, spring < inside) {
@@ -437,6 +427,12 @@ impl<'a> Springs<'a> {
         self.time_s += weights.step_s;
         self.now = to;
     }
+}
+
+/// How far `at` is on the way between two places; 0 where they are one.
+fn share(from: f64, at: f64, to: f64) -> f64 {
+    let share = (at - from) / (to - from);
+    if share.is_finite() { share } else { 0.0 }
 }
 
 fn interpolate(left: &[f64], right: &[f64], share: f64, between: &mut [f64]) {
