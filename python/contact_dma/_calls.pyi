@@ -83,7 +83,7 @@ def sweep(
         title: Title of figures, tables and the page. A string.
         indenter_material: What the indenter is made of, as a material or a name of the library; rigid where it is left out.
         layer: Keys of a layer of the material on a base in place of the half-space, `{"thickness": "0.5 mm", "base": "bonded"}`.
-        adhesion: Work of adhesion (J/m^2) of a sphere under a prescribed load, or the keys `{"work": ..., "equilibrium_distance": ...}`.
+        adhesion: Work of adhesion (J/m^2), or the keys of `[adhesion]`, `{"work": 0.05, "range": "1 nm"}`.
         overrides: Changes of a file by their keys, `{"cycle.steps": 48}`; None removes a key.
         threads: How many; left out: as many as `CONTACT_DMA_THREADS`, `RAYON_NUM_THREADS` or `OMP_NUM_THREADS` say, and otherwise one per processor. Results do not depend on it.
         progress: A function of what is done and what there is in all, or a bar of tqdm.
@@ -134,7 +134,7 @@ def simulate(
         title: Title of figures, tables and the page. A string.
         indenter_material: What the indenter is made of, as a material or a name of the library; rigid where it is left out.
         layer: Keys of a layer of the material on a base in place of the half-space, `{"thickness": "0.5 mm", "base": "bonded"}`.
-        adhesion: Work of adhesion (J/m^2) of a sphere under a prescribed load, or the keys `{"work": ..., "equilibrium_distance": ...}`.
+        adhesion: Work of adhesion (J/m^2), or the keys of `[adhesion]`, `{"work": 0.05, "range": "1 nm"}`.
         overrides: Changes of a file by their keys, `{"cycle.steps": 48}`; None removes a key.
         threads: How many; left out: as many as `CONTACT_DMA_THREADS`, `RAYON_NUM_THREADS` or `OMP_NUM_THREADS` say, and otherwise one per processor. Results do not depend on it.
         progress: A function of what is done and what there is in all, or a bar of tqdm.
@@ -203,7 +203,7 @@ def identify(
         title: Title of figures, tables and the page. A string.
         indenter_material: What the indenter is made of, as a material or a name of the library; rigid where it is left out.
         layer: Keys of a layer of the material on a base in place of the half-space, `{"thickness": "0.5 mm", "base": "bonded"}`.
-        adhesion: Work of adhesion (J/m^2) of a sphere under a prescribed load, or the keys `{"work": ..., "equilibrium_distance": ...}`.
+        adhesion: Work of adhesion (J/m^2), or the keys of `[adhesion]`, `{"work": 0.05, "range": "1 nm"}`.
         overrides: Changes of a file by their keys, `{"cycle.steps": 48}`; None removes a key.
         threads: How many; left out: as many as `CONTACT_DMA_THREADS`, `RAYON_NUM_THREADS` or `OMP_NUM_THREADS` say, and otherwise one per processor. Results do not depend on it.
     """

@@ -126,7 +126,11 @@ impl Sweep {
     fn _all_columns<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
         let unit = self.plan.figures.frequency_unit;
         let branches = self.outcome.branches();
-        let columns = quantities::of_cases(branches, unit, self.plan.axes.as_ref());
+        let columns = quantities::of_cases(
+            (branches, self.plan.is_attracted()),
+            unit,
+            self.plan.axes.as_ref(),
+        );
         arrays::columns(py, &columns, &self.outcome.records)
     }
 

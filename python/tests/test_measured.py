@@ -58,7 +58,7 @@ def test_a_solid_is_found_through_what_else_is_in_the_contact() -> None:
     solid = cd.Material.relaxation("10 MPa", [("30 MPa", "1 s")], poisson_ratio=0.45)
     sphere, rubber = cd.Sphere("2 mm"), cd.Material.elastic("20 MPa", poisson_ratio=0.5)
     drive: dict[str, Any] = {"mean": "0.2 N", "amplitude": "0.1 N"}
-    for bodies in ({"indenter_material": rubber}, {"adhesion": "5 J/m^2"}):
+    for bodies in ({"indenter_material": rubber}, {"adhesion": {"work": "5 J/m^2", "model": "dmt"}}):
         cycles = cd.sweep(solid, sphere, angular_frequency=[0.1, 0.3, 1.0, 3.0, 10.0], **drive, **bodies)
         columns = ["angular_frequency_rad_per_s", "energy_loss_j", "approach_max_m"]
         found = cd.identify({name: cycles[name] for name in columns}, sphere, poisson_ratio=0.45, branches=1, **drive, **bodies)

@@ -105,7 +105,7 @@ def test_bodies_and_cycles_are_what_the_same_keys_of_a_file_give(tmp_path: Path)
         ({"indenter_material": "steel"}, '[indenter.material]\nlibrary = "steel"\n'),
         ({"indenter_material": glass}, '[indenter.material]\nelastic = { modulus = "70 GPa", poisson_ratio = 0.22 }\n'),
         ({"adhesion": 0.05}, '[adhesion]\nwork = "0.05 J/m^2"\n'),
-        ({"adhesion": {"work": 0.05, "equilibrium_distance": "0.2 nm"}}, '[adhesion]\nwork = 0.05\nequilibrium_distance = "0.2 nm"\n'),
+        ({"adhesion": {"work": 0.05, "range": "0.2 nm"}}, '[adhesion]\nwork = 0.05\nrange = "0.2 nm"\n'),
         ({"layer": {"thickness": "1 mm"}, "cells": 16}, '[layer]\nthickness = "1 mm"\n[solver]\ncells = 16\n'),
         (
             {"layer": {"thickness": "1 mm", "base_modulus_ratio": 4.0, "base_poisson_ratio": 0.3}, "cells": 16},

@@ -1,4 +1,4 @@
-//! The `[adhesion]` block: a sphere that the surface attracts, under a prescribed load.
+//! The `[adhesion]` block: an indenter that the surface attracts.
 
 use super::diagnostic::{Location, Problems};
 use super::document::block;
@@ -6,7 +6,7 @@ use super::document::reader::TableReader;
 use super::keys;
 use crate::drive::{Control, DriveError, HarmonicDrive};
 use crate::indenter::Indenter;
-use crate::sweep::plan::adhesion::AdhesionPlan;
+use crate::sweep::plan::adhesion::{AdhesionModel, AdhesionPlan};
 
 /// What attracts an indenter: the block, and where it stands.
 pub(super) struct Attraction<'a> {
@@ -32,19 +32,27 @@ impl Attraction<'_> {
     /// The pull-off load (N) of an indenter under such a control; `None` where a problem was reported.
     pub(super) fn pull_off_n(&self, indenter: &dyn Indenter, control: Control) -> Option<f64> {
         let (place, problems) = (&self.place, self.problems);
-        if control == Control::Approach {
+        let model = self.adhesion.model;
+        if control == Control::Approach && model == AdhesionModel::Dmt {
             problems
-                .at(place, "adhesion goes with a prescribed load only")
-                .because("the attraction of surfaces apart is not known")
-                .help("write `control = \"load\"` in [drive], or leave out [adhesion]");
+                .at(place, "the model \"dmt\" goes with a prescribed load only")
+                .because("its attraction does not depend on the approach")
+                .help("write `control = \"load\"` in [drive], or leave out `model`");
             return None;
         }
         let pull_off_n = self.adhesion.pull_off_n(indenter);
         if pull_off_n.is_none() {
+            let (of, help) = match model {
+                AdhesionModel::Maugis => ("a body of revolution", "leave out [adhesion]"),
+                AdhesionModel::Dmt | AdhesionModel::Jkr => ("a sphere", "leave out `model`"),
+            };
             problems
-                .at(place, "adhesion is known of a sphere only")
+                .at(
+                    place,
+                    format!("the model \"{}\" is of {of} only", model.name()),
+                )
                 .because(format!("and the indenter is a {}", indenter.shape()))
-                .help("write `shape = \"sphere\"` in [indenter], or leave out [adhesion]");
+                .help(help);
         }
         pull_off_n
     }

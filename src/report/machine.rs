@@ -11,8 +11,8 @@ use crate::sweep::search::run::Outcome;
 /// `{"summary": as in summary.json, "cases": one object per row of sweep.csv}`; an absent value is null.
 pub fn sweep(plan: &SweepPlan, outcome: &Outcome, sweep_hash: &str) -> Value {
     let summary = summary::of(plan, outcome, sweep_hash);
-    let branches = outcome.branches();
-    let columns = quantities::of_cases(branches, plan.figures.frequency_unit, plan.axes.as_ref());
+    let of = (outcome.branches(), plan.is_attracted());
+    let columns = quantities::of_cases(of, plan.figures.frequency_unit, plan.axes.as_ref());
     json!({ "summary": summary, "cases": rows(&columns, &outcome.records) })
 }
 

@@ -206,24 +206,28 @@ impl<R> Named<R> {
 }
 
 /// These columns, errors beside their values.
-fn with_errors<R>(columns: &[Column<R>], branches: usize) -> Vec<Named<R>> {
+fn with_errors<R>(
+    columns: impl Iterator<Item = &'static Column<R>>,
+    branches: usize,
+) -> Vec<Named<R>> {
     let named = |column: &Column<R>| {
         column
             .named(branches)
             .into_iter()
             .chain(column.named_error())
     };
-    columns.iter().flat_map(named).collect()
+    columns.flat_map(named).collect()
 }
 
 /// The columns of `sweep.csv`, errors beside their values; frequencies in the unit asked for come first, and before the drive
-/// stands what other axes vary of something else.
+/// stands what other axes vary of something else. There are columns for this many branches of the material, and for an attraction that
+/// moves the edge of the contact, if one does.
 pub fn of_cases(
-    branches: usize,
+    (branches, is_attracted): (usize, bool),
     unit: FrequencyUnit,
     axes: Option<&Axes>,
 ) -> Vec<Named<CaseRecord>> {
-    let mut named = with_errors(SWEEP, branches);
+    let mut named = with_errors(all_of_cases(is_attracted), branches);
     if let Some(leading) = named.iter().position(|c| c.name == unit.column()) {
         named[..=leading].rotate_right(1);
     }
@@ -247,18 +251,22 @@ pub fn of_moments() -> Vec<Named<Moment>> {
     values.chain(errors).collect()
 }
 
+/// The columns that a `sweep.csv` may have, with those of an attraction that moves the edge of the contact or without.
+pub fn all_of_cases(is_attracted: bool) -> impl Iterator<Item = &'static Column<CaseRecord>> {
+    let of_attraction = if is_attracted { ATTRACTED } else { &[] };
+    SWEEP.iter().chain(of_attraction)
+}
+
 /// The column of `sweep.csv` of this name, be it that of a branch.
 pub fn of_name(name: &str) -> Option<&'static Column<CaseRecord>> {
-    SWEEP
-        .iter()
-        .find(|column| match column.name.split_once("{}") {
-            None => column.name == name,
-            Some((before, after)) => {
-                let number = name.strip_prefix(before);
-                let number = number.and_then(|rest| rest.strip_suffix(after));
-                number.is_some_and(|number| number.parse::<usize>().is_ok())
-            }
-        })
+    all_of_cases(true).find(|column| match column.name.split_once("{}") {
+        None => column.name == name,
+        Some((before, after)) => {
+            let number = name.strip_prefix(before);
+            let number = number.and_then(|rest| rest.strip_suffix(after));
+            number.is_some_and(|number| number.parse::<usize>().is_ok())
+        }
+    })
 }
 
 /// A column with an error bar.
@@ -337,8 +345,8 @@ pub static SWEEP: &[OfCase] = &[
         .called("part of the cycle in contact", None)
         .with_error(|r| Some(r.result.as_ref()?.contact_duty.error))
         .compared(Absolutely),
-    OfCase::new("tabor_parameter", |r| of_result(r, |c| c.tabor_parameter),
-        "(R w²/(E*² z₀³))^(1/3) of an indenter that is attracted, with |1/C*| at the frequency for E*; empty without `[adhesion]`")
+    OfCase::new("tabor_parameter", |r| of_result(r, |c| c.tabor_parameter()),
+        "(R w²/(E*² z₀³))^(1/3) of a sphere that is attracted, with |1/C*| at the frequency for E* and z₀ = 1.03 of the range; empty without `[adhesion]`")
         .called("Tabor's parameter", None).compared(Relatively),
     barred!(PeakPressureMin, "smallest peak pressure",
         "smallest over the cycle of the largest pressure in the contact; empty where that is unbounded, under a cone or a flat punch"),
@@ -352,7 +360,7 @@ pub static SWEEP: &[OfCase] = &[
         "what the dashpot of each branch of the creep compliance dissipates per cycle, from the memory alone, shortest \
          retardation time first (`summary.json` lists the times)")
         .called("dissipated by a branch", Some(Energy)).compared(Relatively),
-    OfCase::new("dissipated_j", |r| of_result(r, |c| Some(c.dissipated_j())), "the sum over the branches, which must be the loss: `energy_imbalance` says how far it is from it, and is a measure of its error \
+    OfCase::new("dissipated_j", |r| of_result(r, |c| c.attracted().is_none().then(|| c.dissipated_j())), "the sum over the branches, which must be the loss: `energy_imbalance` says how far it is from it, and is a measure of its error \
          and of that of its parts, which have no error column")
         .called("dissipated by all branches", Some(Energy)).compared(Relatively),
     OfCase::new("dissipated_in_indenter_j", |r| of_result(r, CaseResult::dissipated_in_indenter_j),
@@ -383,6 +391,26 @@ pub static SWEEP: &[OfCase] = &[
         "what lies outside the model, as [codes][validity] with blanks between them; empty where nothing does"),
     OfCase::new("status", |r| r.status.name().into(), "converged; transient: the cycle asked for by its number; not-converged or failed: no result"),
     OfCase::new("message", |r| r.message.clone().into(), "why there is no result, or what else is to be known"),
+];
+
+/// What a table has besides of contacts whose edge an attraction moves.
+#[rustfmt::skip]
+pub static ATTRACTED: &[OfCase] = &[
+    barred!(BulkLoss, "lost in the bulk",
+        "the part of the loss under the surface that is in contact all the time, which shares the approach: 2 a_min π Σ n δₙ² E″(nω)")
+        .in_cases("in the bulk"),
+    barred!(EdgeLoss, "lost at the edge", "the part of the loss where the contact comes and goes: the rest")
+        .in_cases("at the edge"),
+    barred!(JumpLoss, "lost in jumps",
+        "the part of the loss in jumps of the contact, in which it passes states that are not stable: what drive and body have less afterwards"),
+    barred!(ZoneRadiusMin, "smallest radius of the attracted zone", "smallest radius up to which the surfaces attract one another"),
+    barred!(ZoneRadiusMax, "largest radius of the attracted zone", "the largest of the cycle"),
+    barred!(LargestPull, "largest pull", "the largest pull on the indenter in the cycle, −W: the pull-off load where it comes off"),
+    barred!(SnapInApproach, "approach before the snap in",
+        "approach at the last time step before the surfaces jump into contact; empty where they do not, as in the next three"),
+    barred!(SnapInLoad, "load before the snap in", "load at that time step"),
+    barred!(SnapOffApproach, "approach before the snap off", "approach at the last time step before the surfaces jump out of contact"),
+    barred!(SnapOffLoad, "load before the snap off", "load at that time step"),
 ];
 
 /// What is to be kept in mind of a case, as codes.
@@ -490,7 +518,7 @@ pub static CYCLES: &[OfCycle] = &[
 
 /// The columns of `cycles.csv`, errors beside their values.
 pub fn of_cycles() -> Vec<Named<HistoryCycle>> {
-    with_errors(CYCLES, 0)
+    with_errors(CYCLES.iter(), 0)
 }
 
 /// `cycles.csv`: one row per cycle of the sine segments of a history.
@@ -499,8 +527,8 @@ pub fn cycles(outcome: &SimulationOutcome) -> Vec<u8> {
 }
 
 /// A table of these columns, errors beside their values.
-pub(super) fn table<R>(columns: &[Column<R>], rows: &[R]) -> Vec<u8> {
-    named(&with_errors(columns, 0), rows)
+pub(super) fn table<R>(columns: &'static [Column<R>], rows: &[R]) -> Vec<u8> {
+    named(&with_errors(columns.iter(), 0), rows)
 }
 
 /// The rows of these columns.
@@ -510,15 +538,15 @@ pub(super) fn named<R>(columns: &[Named<R>], rows: &[R]) -> Vec<u8> {
     csv(&names, rows.iter().map(cells).collect::<Vec<Vec<Cell>>>())
 }
 
-/// `sweep.csv`: one row per case, in the order given. `branches` is how many the material's creep compliance has, `unit` the one
+/// `sweep.csv`: one row per case, in the order given. `of` is as of [`of_cases`], `unit` the one
 /// in which frequencies come first.
 pub fn sweep(
     records: &[CaseRecord],
-    branches: usize,
+    of: (usize, bool),
     unit: FrequencyUnit,
     axes: Option<&Axes>,
 ) -> Vec<u8> {
-    named(&of_cases(branches, unit, axes), records)
+    named(&of_cases(of, unit, axes), records)
 }
 
 /// `history.csv`: one row per time step, two with the same time at a jump. Errors are absolute.
@@ -559,7 +587,7 @@ mod tests {
         );
         assert!(of_name("branch_x_loss_j").is_none());
         let names = |unit| {
-            let named = of_cases(2, unit, None).into_iter();
+            let named = of_cases((2, false), unit, None).into_iter();
             named.map(|column| column.name).collect::<Vec<_>>()
         };
         let columns = names(FrequencyUnit::RadPerS);
@@ -575,7 +603,7 @@ mod tests {
 
     #[test]
     fn every_quantity_with_an_error_bar_has_a_column() {
-        let barred = SWEEP.iter().filter(|column| column.error_name().is_some());
+        let barred = all_of_cases(true).filter(|column| column.error_name().is_some());
         // The part of the cycle in contact knows its error without a coarser resolution.
         assert_eq!(barred.count(), Quantity::ALL.len() + 1);
     }

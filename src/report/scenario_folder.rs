@@ -21,9 +21,11 @@ use crate::input::diagnostic::{Diagnostic, Diagnostics, Location, Source};
 use crate::input::document::read_limited;
 use crate::simulation::cycles::{self, HistoryCycle};
 use crate::simulation::errors::RowErrors;
+use crate::simulation::work::Separation;
 use crate::simulation::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome, SurfaceRecord};
 use crate::simulation::{scenario, work};
 use crate::sweep::plan::resolved::hash;
+use crate::sweep::record::attracted::Jump;
 use crate::sweep::store::files::{Found, OfCase, Place};
 
 /// What is read of `summary.json`.
@@ -35,6 +37,9 @@ struct Kept {
     domain_half_width_m: f64,
     domain_enlarged: usize,
     iterations: u64,
+    #[serde(default)]
+    jumps: Vec<Jump>,
+    separation: Option<Separation>,
     scenario_hash: String,
 }
 
@@ -94,6 +99,8 @@ pub fn read(folder: &Path, simulation: &Simulation) -> Result<History, Diagnosti
         domain_half_width_m: kept.domain_half_width_m,
         domain_enlarged: kept.domain_enlarged,
         iterations: kept.iterations,
+        jumps: kept.jumps,
+        separation: kept.separation,
         ended: match (&kept.status[..], kept.message) {
             ("interrupted", _) => SimulationEnd::Interrupted,
             (_, Some(message)) => SimulationEnd::Failed(message),

@@ -14,8 +14,9 @@ use crate::contact::surface::Surface;
 use crate::simulation::body_material::BodyMaterial;
 use crate::simulation::outside_model;
 use crate::simulation::scenario::ScenarioPlan;
-use crate::simulation::work::{self, HistoryWork};
+use crate::simulation::work::{self, HistoryWork, Separation};
 use crate::simulation::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
+use crate::sweep::record::attracted::Jump;
 use crate::sweep::store::Store;
 use crate::sweep::store::files::{OfCase, Place};
 
@@ -245,6 +246,11 @@ struct Summary<'a> {
     energy_dissipated_j: Option<f64>,
     energy_dissipated_error_j: Option<f64>,
     energy_dissipated_missing: Option<&'a str>,
+    /// The largest pull on an indenter whose edge an attraction moves, and the work of the pull that parts the surfaces.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    separation: Option<Separation>,
+    #[serde(skip_serializing_if = "<[Jump]>::is_empty")]
+    jumps: &'a [Jump],
     engine: &'a str,
     /// series | fitted series | direct sum: how the body's past is kept.
     hereditary_integral: &'a str,
@@ -302,6 +308,8 @@ pub fn summary(
         energy_dissipated_j: work.and_then(|work| work.dissipated_j()),
         energy_dissipated_error_j: work.and_then(|work| work.dissipated_error_j()),
         energy_dissipated_missing: work.map_or(Some(work::UNKNOWN), |work| work.stored),
+        separation: outcome.separation,
+        jumps: &outcome.jumps,
         engine: plan.solver.engine.name(),
         hereditary_integral: match &plan.contact.material {
             BodyMaterial::Series(material) if material.origin.fit.is_some() => "fitted series",

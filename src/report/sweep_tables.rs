@@ -24,11 +24,11 @@ pub fn write(
     outcome: &Outcome,
     only: Option<&BTreeSet<usize>>,
 ) -> Result<(), ReportError> {
-    let branches = outcome.branches();
+    let columns = (outcome.branches(), plan.is_attracted());
     let unit = plan.figures.frequency_unit;
     store.write(
         Place::Top("sweep.csv"),
-        &quantities::sweep(&outcome.records, branches, unit, plan.axes.as_ref()),
+        &quantities::sweep(&outcome.records, columns, unit, plan.axes.as_ref()),
     )?;
     let has_tables = |record: &&CaseRecord| only.is_none_or(|only| only.contains(&record.index));
     for record in outcome.records.iter().filter(has_tables) {

@@ -39,6 +39,9 @@ pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Text {
         text.blank();
         text.paragraph(format!("Work of the indenter: {}.", words::work(&work)));
     }
+    if let Some(separation) = &outcome.separation {
+        text.paragraph(words::separation(separation));
+    }
     let enlarged = match outcome.domain_enlarged {
         0 => String::new(),
         n => format!(", domain enlarged {n} times"),

@@ -7,9 +7,9 @@ use crate::drive::HarmonicDrive;
 use crate::engine::{EngineKind, SolverPlan};
 use crate::indenter::{Indenter, Setting, Value};
 use crate::material::{Compressibility, Material, Relaxation};
-use crate::quantity::{Dimension, FrequencyUnit};
-use crate::simulation::work::HistoryWork;
-use crate::sweep::plan::adhesion::AdhesionPlan;
+use crate::quantity::{Dimension, FrequencyUnit, format_human};
+use crate::simulation::work::{HistoryWork, Separation};
+use crate::sweep::plan::adhesion::{AdhesionModel, AdhesionPlan};
 use crate::sweep::plan::{Block, Condition, SweepPlan, Varied};
 use crate::sweep::search::run::Outcome;
 
@@ -65,10 +65,33 @@ pub fn work(work: &HistoryWork) -> String {
     format!("{value}; {becomes}")
 }
 
-/// The attraction of the indenter, where there is any: `a work of adhesion of 0.05 J/m² (DMT)`.
+/// The pull of surfaces that attract one another, and the work of it where they part.
+pub fn separation(separation: &Separation) -> String {
+    let (pull_n, error_n) = (separation.pull_n, separation.pull_error_n);
+    let pull = number::with_error(pull_n, error_n, Dimension::Force);
+    match separation.work_j {
+        Some(work_j) => {
+            let work = number::with_error(work_j, separation.work_error_j, Dimension::Energy);
+            format!("Pull-off at {pull}; work of separation {work}.")
+        }
+        None => format!("Largest pull {pull}; the surfaces stay together."),
+    }
+}
+
+/// The attraction of the indenter, where there is any: `a work of adhesion of 0.05 J/m² (range 0.3 nm)`.
 pub fn adhesion_line(adhesion: Option<AdhesionPlan>) -> Option<String> {
-    let work = number::six_digits(adhesion?.work_j_per_m2);
-    Some(format!("a work of adhesion of {work} J/m² (DMT)"))
+    let adhesion = adhesion?;
+    let work = number::six_digits(adhesion.work_j_per_m2);
+    let how = match adhesion.model {
+        AdhesionModel::Maugis => {
+            format!(
+                "range {}",
+                format_human(adhesion.range_m(), Dimension::Length, 4)
+            )
+        }
+        limit => limit.name().to_uppercase(),
+    };
+    Some(format!("a work of adhesion of {work} J/m² ({how})"))
 }
 
 /// Blocks of a list that are told one by one, at most.

@@ -364,7 +364,12 @@ impl Records {
         let (plan, hash) = (self.folder.setup.plan(), self.folder.store.sweep_hash());
         let (branches, axes) = (outcome.retardation_times_s().len(), plan.axes.as_ref());
         let unit = plan.figures.frequency_unit;
-        let _ = quantities::sweep(&outcome.records, branches, unit, axes);
+        let _ = quantities::sweep(
+            &outcome.records,
+            (branches, plan.is_attracted()),
+            unit,
+            axes,
+        );
         for result in outcome.records.iter().filter_map(|r| r.result.as_ref()) {
             let _ = table::samples(&result.cycle.samples);
             let _ = table::pressures(&result.cycle.pressures, plan.base.drive.control());

@@ -8,6 +8,12 @@ const RADIUS_M: f64 = 1e-6;
 const WORK: f64 = 0.05;
 /// 2 pi w R.
 const PULL_OFF_N: f64 = TAU * WORK * RADIUS_M;
+const DMT: AdhesionPlan = AdhesionPlan {
+    work_j_per_m2: WORK,
+    range_m: None,
+    stress_pa: None,
+    model: AdhesionModel::Dmt,
+};
 
 fn sweep(material: Material, (mean_n, amplitude_n): (f64, f64)) -> Sweep {
     let drive = HarmonicDrive::load(mean_n, amplitude_n).unwrap();
@@ -50,7 +56,7 @@ fn radius_and_approach_are_those_of_hertz_with_the_attraction_down_to_the_pull_o
         let amplitude_n = PULL_OFF_N;
         let mean_n = amplitude_n - part * PULL_OFF_N;
         let sweep = sweep(elastic(), (mean_n, amplitude_n)).without_error_bars();
-        let result = at_one(sweep.springs(800).unwrap().attracted(WORK).unwrap());
+        let result = at_one(sweep.springs(800).unwrap().attracted(DMT).unwrap());
         let samples = &result.cycle.samples;
         let load_n = &samples.load_n;
         for (k, load_n) in load_n.iter().enumerate() {
@@ -67,7 +73,7 @@ fn radius_and_approach_are_those_of_hertz_with_the_attraction_down_to_the_pull_o
 #[test]
 fn the_loop_is_that_of_the_load_and_the_attraction_together() {
     let (mean_n, amplitude_n) = (0.2 * PULL_OFF_N, 0.9 * PULL_OFF_N);
-    let attracted = sweep(zener_material(), (mean_n, amplitude_n)).attracted(WORK);
+    let attracted = sweep(zener_material(), (mean_n, amplitude_n)).attracted(DMT);
     let attracted = at_one(attracted.unwrap());
     let pressed = at_one(sweep(zener_material(), (mean_n + PULL_OFF_N, amplitude_n)));
     let (one, other) = (&attracted.analysis, &pressed.analysis);
@@ -81,16 +87,16 @@ fn the_loop_is_that_of_the_load_and_the_attraction_together() {
     let off_j = attracted.dissipated_j() - attracted.loss_j();
     below!(off_j.abs(), attracted.bar_j());
     let cells = sweep(zener_material(), (mean_n, amplitude_n)).cells(64);
-    let cells = at_one(cells.unwrap().attracted(WORK).unwrap());
+    let cells = at_one(cells.unwrap().attracted(DMT).unwrap());
     let apart_j = (cells.loss_j() - attracted.loss_j()).abs();
     below!(apart_j, attracted.bar_j() + cells.bar_j());
-    assert!(attracted.tabor_parameter.is_some() && pressed.tabor_parameter.is_none());
+    assert!(attracted.tabor_parameter().is_some() && pressed.tabor_parameter().is_none());
 }
 
 #[test]
 fn a_load_below_the_pull_off_load_and_what_has_none_are_refused() {
     let of = |mean_n: f64, amplitude_n: f64| sweep(elastic(), (mean_n, amplitude_n));
-    let told = |sweep: Sweep| sweep.attracted(WORK).unwrap_err().to_string();
+    let told = |sweep: Sweep| sweep.attracted(DMT).unwrap_err().to_string();
     assert!(told(of(0.1 * PULL_OFF_N, 1.2 * PULL_OFF_N)).contains("comes off"));
     let drive = HarmonicDrive::load(1.0, 0.5).unwrap();
     let cone = Sweep::new(elastic(), Cone::new(1.2).unwrap(), drive);
@@ -99,7 +105,11 @@ fn a_load_below_the_pull_off_load_and_what_has_none_are_refused() {
     let approach = Sweep::new(elastic(), ball(RADIUS_M), approach);
     assert!(told(approach).contains("prescribed load"));
     for work in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(of(1e-6, 1e-7).attracted(work).is_err(), "{work}");
+        let dmt = AdhesionPlan {
+            work_j_per_m2: work,
+            ..DMT
+        };
+        assert!(of(1e-6, 1e-7).attracted(dmt).is_err(), "{work}");
     }
 }
 
@@ -111,10 +121,7 @@ fn history(segments: Vec<Segment>) -> Result<SegmentedDrive, HistoryError> {
 fn attracted(material: Material, segments: Vec<Segment>) -> SimulationOutcome {
     let drive = history(segments).unwrap();
     let mut plan = ScenarioPlan::new(material, sphere(RADIUS_M), drive);
-    plan.contact.adhesion = Some(AdhesionPlan {
-        work_j_per_m2: WORK,
-        equilibrium_distance_m: AdhesionPlan::EQUILIBRIUM_DISTANCE_M,
-    });
+    plan.contact.adhesion = Some(DMT);
     (plan.solver.springs, plan.output.error_bars) = (800, false);
     simulated(plan)
 }
@@ -154,7 +161,7 @@ fn cycles_of_a_history_with_attraction_are_those_of_a_sweep() {
     let outcome = attracted(material(), vec![sine]);
     let last = outcome.cycles.last().unwrap().numbers.as_ref().unwrap();
     let own = sweep(material(), (mean, amplitude)).without_error_bars();
-    let own = at_one(own.springs(800).unwrap().attracted(WORK).unwrap());
+    let own = at_one(own.springs(800).unwrap().attracted(DMT).unwrap());
     // Both take 200 steps of a second-order rule a cycle; twelve cycles after a solid of one time have settled.
     near!(last.analysis.energy_loss_j, own.loss_j(), 1e-4);
     let off_n = last.analysis.load_mean_n - own.analysis.load_mean_n;

@@ -136,8 +136,8 @@ fn an_indenter_that_yields_as_much_as_the_body_is_taken_out() {
 #[test]
 fn attraction_is_taken_out() {
     let adhesion = AdhesionPlan {
-        work_j_per_m2: 20.0,
-        equilibrium_distance_m: AdhesionPlan::EQUILIBRIUM_DISTANCE_M,
+        model: AdhesionModel::Dmt,
+        ..AdhesionPlan::of_work(20.0)
     };
     let with = With {
         adhesion: Some(adhesion),

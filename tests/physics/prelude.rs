@@ -20,7 +20,7 @@ pub use contact_dma::prelude::*;
 pub use contact_dma::reference::elastic::{ConeContact, Hertz};
 pub use contact_dma::simulation::HistoryRow;
 pub use contact_dma::sweep::case::Setup;
-pub use contact_dma::sweep::plan::adhesion::AdhesionPlan;
+pub use contact_dma::sweep::plan::adhesion::{AdhesionModel, AdhesionPlan};
 pub use contact_dma::sweep::plan::layer::LayerPlan;
 pub use contact_dma::sweep::plan::{CyclePlan, Method, SweepPlan};
 pub use contact_dma::sweep::record::error_bars::Quantity;

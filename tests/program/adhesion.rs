@@ -15,7 +15,7 @@ fn a_load_may_be_a_pull_and_the_resolved_file_says_why() {
     };
     let table = run(PULL, "one");
     let resolved = place.text("one/resolved.toml");
-    assert!(resolved.contains("[adhesion]\nwork = \"0.05 J/m^2\"\nequilibrium_distance = "));
+    assert!(resolved.contains("[adhesion]\nwork = \"0.05 J/m^2\"\nmodel = \"dmt\""));
     let work = "a work of adhesion of 0.05 J/m² (DMT)";
     says(&place.text("one/index.html"), &[work]);
     // Tabor's parameter of a tip of 100 nm on a polymer.

@@ -40,13 +40,24 @@ pub struct Ending<'a> {
     pub stop: &'a dyn Fn() -> bool,
 }
 
+/// Where a search begins, and whether it is one.
+#[derive(Clone, Copy)]
+pub enum Start<'a> {
+    /// From where a body at rest under the mean is.
+    Rest,
+    /// From what springs remember.
+    From(&'a State),
+    /// Cycles as they come, from the first touch on, after this time (s) under this value.
+    March { hold_s: f64, held: Prescribed },
+}
+
 /// The last cycle of a search.
 #[derive(Debug, Clone)]
 pub struct Found {
     /// The edges at the beginning and at the end of every step.
     pub edges: Vec<Edges>,
-    /// Steps, counted from 1, in which the contact jumped.
-    pub jumps: Vec<usize>,
+    /// Steps, counted from 1, in which the contact jumped, and the energy (J) that each jump lost.
+    pub jumps: Vec<(usize, f64)>,
     /// How far it is from the stabilised one.
     pub distance: f64,
     pub cycles: usize,
@@ -155,6 +166,12 @@ impl<'a> Cycle<'a> {
             })
         };
         let largest = edges(self.maximum)?;
+        if let (Prescribed::ApproachM(approach_m), true) = (self.maximum, largest.zone_m == 0.0) {
+            return Err(ContactError::NeverAttracted {
+                approach_m,
+                range_m: self.attraction.range_m,
+            });
+        }
         let samples = (0..16).map(|k| edges((self.drive)(f64::from(k) / 16.0)));
         let least_m = samples
             .map(|e| e.map_or(0.0, |e| e.contact_m))
@@ -185,7 +202,7 @@ impl<'a> Cycle<'a> {
             most_cycles: 2,
             stop,
         };
-        let found = self.stabilised(&self.expected()?, (64, 200), None, ending)?;
+        let found = self.stabilised(&self.expected()?, (64, 200), Start::Rest, ending)?;
         Ok(Layout::of(&found.edges))
     }
 
@@ -198,7 +215,7 @@ impl<'a> Cycle<'a> {
         &self,
         layout: &Layout,
         (steps, springs): (usize, usize),
-        start: Option<&State>,
+        start: Start<'_>,
         ending: Ending<'_>,
     ) -> Result<Found, ContactError> {
         let mut room = 1.05;
@@ -214,7 +231,7 @@ impl<'a> Cycle<'a> {
         &self,
         places_m: Vec<f64>,
         steps: usize,
-        start: Option<&State>,
+        start: Start<'_>,
         ending: Ending<'_>,
     ) -> Result<Found, ContactError> {
         let step_s = self.period_s / steps as f64;
@@ -224,11 +241,15 @@ impl<'a> Cycle<'a> {
         );
         let mut springs = Springs::new(self.body, self.profile, self.attraction, places_m);
         match start {
-            Some(state) => springs.recall(&state.at(&springs)),
-            None => {
+            Start::From(state) => springs.recall(&state.at(&springs)),
+            Start::Rest => {
                 if springs.rest(self.mean).is_err() {
                     springs.rest(self.maximum)?;
                 }
+            }
+            Start::March { hold_s, held } => {
+                springs.step(&jump, held)?;
+                self.hold(&mut springs, (hold_s, held), steps)?;
             }
         }
         let mut state = springs.state();
@@ -248,9 +269,7 @@ impl<'a> Cycle<'a> {
                     return Err(ContactError::Interrupted);
                 }
                 edges.push(springs.step(&weights, (self.drive)(step as f64 / steps as f64))?);
-                if springs.jumped() {
-                    jumps.push(step);
-                }
+                jumps.extend(springs.jumped_j().map(|lost_j| (step, lost_j)));
             }
             cycles += 1;
             let end = springs.state();
@@ -272,11 +291,40 @@ impl<'a> Cycle<'a> {
                 .iter()
                 .zip(&begun.displacements_m);
             let mut update: Vec<f64> = ends.map(|(end, begun)| end - begun).collect();
+            if let Start::March { .. } = start {
+                state = end;
+                continue;
+            }
             springs.correct(self.period_s, keeps_load, &mut update);
             let mut next = begun.displacements_m[..of_springs].to_vec();
             anderson.advance(&mut next, &update, &least_squares);
             state = end.moved_to(&next, self.body.branches());
         }
+    }
+
+    /// Holds a value in steps that grow, from a thousandth of the shortest time of the body on or of the time itself.
+    fn hold(
+        &self,
+        springs: &mut Springs<'_>,
+        (hold_s, held): (f64, Prescribed),
+        steps: usize,
+    ) -> Result<(), ContactError> {
+        let Some(shortest_s) = self.body.relaxation_times_s.first() else {
+            return Ok(());
+        };
+        if hold_s == 0.0 {
+            return Ok(());
+        }
+        let first_s = 1e-3 * shortest_s.min(hold_s);
+        let decades = (hold_s / first_s).log10();
+        let count = (0.1 * steps as f64 * decades).ceil() as usize;
+        let mut before_s = 0.0;
+        for k in 0..=count {
+            let at_s = first_s * (hold_s / first_s).powf(k as f64 / count as f64);
+            springs.step(&StepWeights::new(self.body, at_s - before_s), held)?;
+            before_s = at_s;
+        }
+        Ok(())
     }
 }
 

@@ -20,13 +20,16 @@ pub(super) struct Start {
     widening: f64,
     /// By how much what is prescribed grows with the radius of the contact.
     growing: f64,
-    /// Whether the last instant was reached by a jump.
-    pub jumped: bool,
+    /// The energy (J) that the last step lost in jumps.
+    pub released_j: f64,
 }
 
 /// Relative to the range, or to what is prescribed.
 const TOLERANCE: f64 = 1e-10;
 const MOST: usize = 200;
+
+/// What a jump loses at least, of the work of adhesion of the whole disc: less is rounding of the curve.
+const SMALLEST_JUMP: f64 = 1e-6;
 
 /// Two places on either side of a root, by the rule of false position (Illinois: M. Dowell and P. Jarratt, BIT 11 (1971) 168).
 struct Bracket {
@@ -79,15 +82,20 @@ impl Springs<'_> {
     ) -> Result<Edges, ContactError> {
         self.begin(weights);
         let to = self.find(weights, prescribed)?;
+        let zone_m = to.zone_m.max(self.now.zone_m);
+        let whole_j = PI * self.attraction.stress_pa * self.attraction.range_m * zone_m * zone_m;
+        if self.search.released_j < SMALLEST_JUMP * whole_j {
+            self.search.released_j = 0.0;
+        }
         self.search.moved_m = to.contact_m - self.now.contact_m;
         self.search.width_m = to.zone_m - to.contact_m;
         self.end(weights, to);
         Ok(to)
     }
 
-    /// Whether the last step was a jump of the contact, into contact or out of it.
-    pub fn jumped(&self) -> bool {
-        self.search.jumped
+    /// The energy (J) that the last step lost in a jump, where the contact jumped in it, in or out.
+    pub fn jumped_j(&self) -> Option<f64> {
+        (self.search.released_j > 0.0).then_some(self.search.released_j)
     }
 
     fn find(
@@ -110,7 +118,7 @@ impl Springs<'_> {
             weights,
             prescribed,
         };
-        self.search.jumped = false;
+        self.search.released_j = 0.0;
         match curve.beside_last(self)? {
             Some(found) => Ok(found),
             None => curve.scan(self),
@@ -194,6 +202,16 @@ impl Curve<'_> {
         match self.prescribed {
             Prescribed::LoadN(load_n) => edges.load_n - load_n,
             Prescribed::ApproachM(approach_m) => edges.approach_m - approach_m,
+        }
+    }
+
+    /// The energy (J) that a jump past two places of the curve loses between them, which lie so much beside it: what is prescribed does
+    /// more work than the contact takes up along the curve.
+    fn lost_j(&self, (from, before): (&Edges, f64), (to, after): (&Edges, f64)) -> f64 {
+        let surplus = 0.5 * (before + after);
+        match self.prescribed {
+            Prescribed::LoadN(_) => -surplus * (to.approach_m - from.approach_m),
+            Prescribed::ApproachM(_) => surplus * (to.load_n - from.load_n),
         }
     }
 
@@ -300,14 +318,14 @@ impl Curve<'_> {
             }
             surplus = lower;
         }
-        self.go_on(springs, (from_m, surplus))
+        self.go_on(springs, (from_m, (edges, surplus)))
     }
 
     /// The first instant from a place on the curve, whose surplus tells the direction.
     fn go_on(
         &mut self,
         springs: &mut Springs<'_>,
-        (mut from_m, mut surplus): (f64, f64),
+        (mut from_m, (mut from, mut surplus)): (f64, (Edges, f64)),
     ) -> Result<Edges, ContactError> {
         let scale_m = self.scale_m;
         let grows = surplus < 0.0;
@@ -316,26 +334,35 @@ impl Curve<'_> {
         let moved_m = springs.search.moved_m.abs();
         let mut stride_m = (0.25 * moved_m).clamp(1e-7 * scale_m, longest_m);
         let direction = if grows { 1.0 } else { -1.0 };
-        let mut turned = false;
+        let mut turning = surplus;
         loop {
             let mut next_m = (from_m + direction * stride_m).clamp(-scale_m, scale_m);
             if (from_m < 0.0 && next_m > 0.0) || (from_m > 0.0 && next_m < 0.0) {
                 next_m = 0.0;
             }
             let (edges, next) = self.at(springs, next_m)?;
+            // What is prescribed goes on from where the curve turns, and the contact with it from where the curve comes back to that.
+            let short = |surplus: f64| match grows {
+                true => (surplus - turning).min(0.0),
+                false => (surplus - turning).max(0.0),
+            };
+            let lost_j = self.lost_j((&from, short(surplus)), (&edges, short(next)));
+            springs.search.released_j += lost_j;
+            turning = if grows {
+                turning.max(next)
+            } else {
+                turning.min(next)
+            };
             if next.abs() <= self.tolerance {
-                springs.search.jumped = turned;
                 return Ok(edges);
             }
             if (next > 0.0) == grows {
-                springs.search.jumped = turned;
                 let bracket = Bracket {
                     old: (from_m, surplus),
                     new: (next_m, next),
                 };
                 return self.close(springs, bracket);
             }
-            turned |= (next < surplus) == grows;
             if grows && next_m >= scale_m {
                 return Err(ContactError::ReachedEdge {
                     half_width_m: scale_m,
@@ -344,17 +371,13 @@ impl Curve<'_> {
             if !grows && next_m <= -scale_m {
                 return match self.prescribed {
                     Prescribed::LoadN(load_n) => Err(ContactError::PulledOff { load_n }),
-                    Prescribed::ApproachM(approach_m) => {
-                        // Without an attraction before, nothing came off.
-                        springs.search.jumped = turned && springs.now.zone_m > 0.0;
-                        Ok(Edges {
-                            approach_m,
-                            ..Edges::default()
-                        })
-                    }
+                    Prescribed::ApproachM(approach_m) => Ok(Edges {
+                        approach_m,
+                        ..Edges::default()
+                    }),
                 };
             }
-            (from_m, surplus) = (next_m, next);
+            (from_m, from, surplus) = (next_m, edges, next);
             stride_m = (1.6 * stride_m).min(longest_m);
         }
     }

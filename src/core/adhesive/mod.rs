@@ -37,7 +37,7 @@ pub mod weights;
 
 pub use attraction::Attraction;
 pub use body::Body;
-pub use cycle::{Cycle, Ending, Found, Layout};
+pub use cycle::{Cycle, Ending, Found, Layout, Start};
 pub use springs::{Edges, Springs};
 pub use weights::StepWeights;
 
@@ -96,7 +96,7 @@ mod tests {
                 Err(ContactError::PulledOff { .. }) => break,
                 Err(error) => panic!("{error}"),
             }
-            if springs.jumped() {
+            if springs.jumped_j().is_some() {
                 jumps.push(edges.len() - 1);
             }
         }
@@ -302,7 +302,7 @@ mod tests {
         };
         let layout = cycle.layout(&|| false).unwrap();
         let found = cycle
-            .stabilised(&layout, (steps, 300), None, ending)
+            .stabilised(&layout, (steps, 300), Start::Rest, ending)
             .unwrap();
         assert!(
             found.distance <= 1e-5 && found.cycles < 10 && found.jumps.is_empty(),
@@ -348,8 +348,10 @@ mod tests {
             stop: &|| false,
         };
         let layout = cycle.layout(&|| false).unwrap();
-        let coarse = cycle.stabilised(&layout, (100, 300), None, ending).unwrap();
-        let (layout, start) = (Layout::of(&coarse.edges), Some(&coarse.state));
+        let coarse = cycle
+            .stabilised(&layout, (100, 300), Start::Rest, ending)
+            .unwrap();
+        let (layout, start) = (Layout::of(&coarse.edges), Start::From(&coarse.state));
         let found = cycle
             .stabilised(&layout, (200, 300), start, ending)
             .unwrap();

@@ -52,6 +52,11 @@ pub struct StepWeights {
 }
 
 impl StepWeights {
+    /// Length of the step (s).
+    pub fn step_s(&self) -> f64 {
+        self.step_s
+    }
+
     /// A step of `step_s` seconds; zero is a jump.
     pub fn new(body: &Body, step_s: f64) -> Self {
         let shortest_s = body.retardation_times_s.first().copied().unwrap_or(0.0);

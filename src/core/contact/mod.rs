@@ -104,6 +104,11 @@ pub enum ContactError {
     Interrupted,
     #[error("a load of {load_n:e} N pulls the surfaces apart: no contact bears it")]
     PulledOff { load_n: f64 },
+    #[error(
+        "the indenter comes no farther than an approach of {approach_m:.3e} m, at which the surfaces do not attract one another: their gap \
+         is above the range, {range_m:.3e} m"
+    )]
+    NeverAttracted { approach_m: f64, range_m: f64 },
     #[error("{reason}")]
     Operator { reason: String },
     #[error("the prescribed {what} is {value}: it must be finite{also}")]

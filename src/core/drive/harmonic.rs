@@ -38,7 +38,7 @@ pub struct HarmonicDrive {
     amplitude: f64,
     phase_rad: f64,
     hold_s: f64,
-    /// How far a load may be a pull (N): zero without adhesion.
+    /// How far a load may be a pull (N): zero without adhesion, without end where the contact itself says when it comes off.
     pull_off_n: f64,
 }
 
@@ -118,7 +118,7 @@ impl HarmonicDrive {
     }
 
     /// The same drive of an indenter that is attracted by this much (N), so that a load may be a pull; the indenter does not come off.
-    /// Without an attraction a load below zero is held at zero.
+    /// An infinite attraction is one of which the contact says how much it carries. Without one a load below zero is held at zero.
     ///
     /// # Errors
     /// [`DriveError`]: an indenter that never touches, a load that falls below the pull-off load.
@@ -146,9 +146,12 @@ impl HarmonicDrive {
         }
     }
 
-    /// How far the load may be a pull (N): zero without adhesion.
+    /// The constant attraction (N) that the contact carries beside the load: zero without one.
     pub fn pull_off_n(&self) -> f64 {
-        self.pull_off_n
+        match self.pull_off_n.is_finite() {
+            true => self.pull_off_n,
+            false => 0.0,
+        }
     }
 
     /// A load (N) that oscillates from its mean on, without a hold.
@@ -212,7 +215,8 @@ impl HarmonicDrive {
     fn pressing(&self, value: f64) -> f64 {
         // Not -0 without adhesion.
         let least = 0.0 - self.pull_off_n;
-        match self.control == Control::Load && value - least <= 1e-14 * (self.maximum() - least) {
+        let reaches = || value - least <= 1e-14 * (self.maximum() - least);
+        match self.control == Control::Load && least.is_finite() && reaches() {
             true => least,
             false => value,
         }

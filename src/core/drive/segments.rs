@@ -84,7 +84,8 @@ impl SegmentedDrive {
         Self::attracted(control, segments, 0.0)
     }
 
-    /// The same on an indenter that is attracted by this much (N), which a load may pull as far as that. Moments, joints and values within
+    /// The same on an indenter that is attracted by this much (N), which a load may pull as far as that; an infinite attraction is one
+    /// of which the contact says how much it carries. Moments, joints and values within
     /// steps are then of the load on the contact, which the attraction adds to.
     ///
     /// # Errors
@@ -126,9 +127,12 @@ impl SegmentedDrive {
         })
     }
 
-    /// The attraction (N), 0 without one.
+    /// The constant attraction (N) that the contact carries beside a load, 0 without one.
     pub fn pull_off_n(&self) -> f64 {
-        self.pull_off_n
+        match self.pull_off_n.is_finite() {
+            true => self.pull_off_n,
+            false => 0.0,
+        }
     }
 
     /// What is prescribed.
@@ -187,9 +191,10 @@ impl SegmentedDrive {
     /// The value on the contact this long after a piece began. A load that is zero but for rounding is zero: a contact is out of contact
     /// at load zero, and a pull of 1e-16 N would be no load at all.
     pub(super) fn value_in(&self, piece: &Piece, time_s: f64) -> f64 {
-        let value = piece.value(time_s) + self.pull_off_n;
-        let rounding = ZERO_LOAD * (piece.scale() + self.pull_off_n);
-        match self.control == Control::Load && value <= rounding {
+        let value = piece.value(time_s) + self.pull_off_n();
+        let rounding = ZERO_LOAD * (piece.scale() + self.pull_off_n());
+        let may_pull = self.pull_off_n.is_infinite();
+        match self.control == Control::Load && !may_pull && value <= rounding {
             true => 0.0,
             false => value,
         }

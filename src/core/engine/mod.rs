@@ -44,6 +44,24 @@ pub enum EngineError {
     )]
     LayerOfBulkModulus,
     #[error(
+        "an attraction within a range moves the edge of the contact within a step, which the springs of the axisymmetric engine follow and \
+         cells do not: set solver.engine = \"axisymmetric\", or adhesion.model = \"dmt\" for a small, stiff sphere"
+    )]
+    AttractedCells,
+    #[error(
+        "the edge of a {shape} stays where it is, and an attraction within a range moves it: leave out [adhesion]"
+    )]
+    AttractedRim { shape: &'static str },
+    #[error(
+        "the memory of a contact whose edge an attraction moves is that of branches: set material.table.evaluation = \"fit\""
+    )]
+    AttractedSamples,
+    #[error(
+        "the surface is not computed where an attraction moves the edge of the contact: leave out output.profiles_at and \
+         output.fields_at"
+    )]
+    AttractedSurface,
+    #[error(
         "a surface that repeats itself is solved on the half-space alone: leave out [layer], or edge = \"periodic\""
     )]
     PeriodicOnLayer,
@@ -154,7 +172,9 @@ impl EngineBuilder {
         }
         let mut half_width_m = contact_half_width_m(indenter.as_ref(), largest);
         if solver.engine == EngineKind::Axisymmetric
-            && body(indenter.as_ref())?.contact_limit_m().is_none()
+            && body_of_revolution(indenter.as_ref())?
+                .contact_limit_m()
+                .is_none()
         {
             half_width_m *= SPRING_ROOM;
         }
@@ -219,7 +239,8 @@ impl EngineBuilder {
         /// Room beyond the first contact, whose size is an estimate.
         const ROOM: f64 = 1.15;
         let own = matches!(self.domain, Domain::Cells { .. });
-        let ends = body(&*self.indenter).is_ok_and(|body| body.contact_limit_m().is_some());
+        let ends =
+            body_of_revolution(&*self.indenter).is_ok_and(|body| body.contact_limit_m().is_some());
         let is_fixed = match self.solver.engine {
             EngineKind::Axisymmetric => ends,
             EngineKind::HalfSpace => {
@@ -336,7 +357,7 @@ impl EngineBuilder {
     }
 
     fn springs(&self, growths: usize) -> Result<Axisymmetric, EngineError> {
-        let body = body(&*self.indenter)?;
+        let body = body_of_revolution(&*self.indenter)?;
         let springs = self.solver.springs;
         let end_m = self.enlarged_half_width_m(growths).0;
         let extremes_m = self.extremes_m.filter(|_| growths == 0);
@@ -420,7 +441,13 @@ impl EngineBuilder {
 }
 
 /// The indenter as a body of revolution, which springs take.
-fn body(indenter: &dyn Indenter) -> Result<&dyn indenter::Axisymmetric, EngineError> {
+/// The body of revolution that an indenter is.
+///
+/// # Errors
+/// [`EngineError::NotAxisymmetric`] of another.
+pub(crate) fn body_of_revolution(
+    indenter: &dyn Indenter,
+) -> Result<&dyn indenter::Axisymmetric, EngineError> {
     let refusal = || EngineError::NotAxisymmetric {
         shape: indenter.shape(),
         reason: indenter.not_axisymmetric_because(),

@@ -169,6 +169,7 @@ mod tests {
                 growths: 2,
                 iterations: 7,
                 failed: Some("too \"steep\"".to_owned()),
+                jumps: Vec::new(),
             }]),
             trajectory: Cow::Owned(Trajectory {
                 rows: vec![row(5.0)],

@@ -18,6 +18,7 @@ use crate::simulation::body_material::Compliance;
 use crate::simulation::checkpoint::{HistoryCheckpoint, HistoryState};
 use crate::simulation::work::WorkDone;
 use crate::simulation::{HistoryRow, Level, Progress, Simulation, SurfaceRecord};
+use crate::sweep::record::attracted::Jump;
 
 /// Why a march ended early.
 #[derive(Debug, thiserror::Error)]
@@ -42,6 +43,9 @@ pub(super) struct Trajectory {
     pub(super) growths: usize,
     /// Contact iterations over all moments.
     pub(super) iterations: u64,
+    /// Jumps of a contact whose edge an attraction moves, of which no checkpoint is written.
+    #[serde(skip)]
+    pub(super) jumps: Vec<Jump>,
     /// Why it ended early, where it did.
     pub(super) failed: Option<String>,
 }
@@ -74,6 +78,9 @@ impl Simulation {
         begun: Option<(Trajectory, StepState)>,
         run: &Run<'_>,
     ) -> (Trajectory, Result<(), MarchError>) {
+        if self.plan.contact.is_attracted() {
+            return self.follow_attracted(level, run);
+        }
         let (mut trajectory, mut step) = match begun {
             Some((trajectory, step)) => (trajectory, Some(step)),
             None => (Trajectory::default(), None),

@@ -9,6 +9,7 @@
 //! touches the surface. Both engines return it, and it is reported for exactly these instants; those at which the history
 //! begins or ends count, provided that the load is above zero on the other side.
 
+mod attracted;
 pub mod between;
 pub mod body_material;
 pub mod checkpoint;
@@ -27,16 +28,18 @@ use serde::{Deserialize, Serialize};
 use crate::contact::ContactError;
 use crate::contact::surface::Surface;
 use crate::drive::{Control, Fineness, MAX_MOMENTS, Schedule, Steps};
-use crate::engine::{EngineBuilder, LargestContact, MAX_GROWTHS, missed_contact};
+use crate::engine::{EngineBuilder, EngineError, LargestContact, MAX_GROWTHS, missed_contact};
 use crate::quantity::{Dimension, format_human};
 use crate::simulation::body_material::Compliance;
 use crate::simulation::checkpoint::{HistoryCheckpoint, HistoryState};
 use crate::simulation::cycles::HistoryCycle;
 use crate::simulation::errors::{Followed, Plan, RowErrors};
 use crate::simulation::follow::{MarchError, Run, Trajectory};
-use crate::simulation::scenario::ScenarioPlan;
+use crate::simulation::scenario::{OutputPlan, ScenarioPlan};
+use crate::simulation::work::Separation;
 use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::setup::{SetupError, check_direct_sum};
+use crate::sweep::record::attracted::Jump;
 
 /// A scenario, ready to run.
 pub struct Simulation {
@@ -104,6 +107,10 @@ pub struct SimulationOutcome {
     pub domain_enlarged: usize,
     /// Contact iterations over all moments.
     pub iterations: u64,
+    /// Jumps of a contact whose edge an attraction moves, in order.
+    pub jumps: Vec<Jump>,
+    /// The pull of such a contact.
+    pub separation: Option<Separation>,
     pub ended: SimulationEnd,
 }
 
@@ -145,6 +152,10 @@ impl Simulation {
                 shortest_time_s: plan.contact.material.shortest_time_s(),
             },
         };
+        plan.contact.check_attraction(plan.solver.engine)?;
+        if plan.contact.is_attracted() {
+            check_attracted(&plan.output, &compliance)?;
+        }
         let largest = LargestContact {
             control: plan.drive.control(),
             maximum: plan.drive.maximum() + plan.drive.pull_off_n(),
@@ -324,6 +335,7 @@ impl Simulation {
     ) -> SimulationOutcome {
         self.take_attraction_off(&mut trajectories);
         let mut cycles = cycles::in_rows(&self.plan, &trajectories[0].rows);
+        let mut separation = Separation::of(&self.plan, &trajectories[0].rows);
         let mut errors = Vec::new();
         let mut errors_missing = self.without_errors.clone();
         if let (SimulationEnd::Done, Some(plan)) = (&ended, &self.errors) {
@@ -336,6 +348,11 @@ impl Simulation {
             let coarser = trajectories.iter().skip(1);
             let coarser = coarser.map(|trajectory| cycles::in_rows(&self.plan, &trajectory.rows));
             cycles::add_errors(&mut cycles, &coarser.collect::<Vec<_>>(), plan);
+            let all: Vec<_> = trajectories
+                .iter()
+                .map(|trajectory| Separation::of(&self.plan, &trajectory.rows))
+                .collect();
+            separation = separation.map(|own| own.with_errors(&all, plan));
             let failed = trajectories
                 .iter()
                 .find_map(|trajectory| trajectory.failed.as_ref());
@@ -351,6 +368,7 @@ impl Simulation {
             rows,
             surfaces,
             growths,
+            jumps,
             ..
         } = trajectories.swap_remove(0);
         let [profiles, fields] = surfaces.map(|s| s.into_iter().flatten().collect());
@@ -366,6 +384,8 @@ impl Simulation {
                 .map_or(0.0, |engines| engines.half_width_m()),
             domain_enlarged: growths.saturating_sub(self.halvings),
             iterations,
+            jumps,
+            separation,
             ended,
         }
     }
@@ -381,6 +401,17 @@ impl Simulation {
             let rows = rows.iter_mut().chain(of_surfaces.map(|s| &mut s.row));
             rows.for_each(|row| row.load_n -= pull_off_n);
         }
+    }
+}
+
+/// Refuses what is not computed where an attraction moves the edge.
+fn check_attracted(output: &OutputPlan, compliance: &Compliance) -> Result<(), SetupError> {
+    if matches!(compliance, Compliance::Samples(_)) {
+        return Err(EngineError::AttractedSamples.into());
+    }
+    match output.profiles_at_s.is_empty() && output.fields_at_s.is_empty() {
+        true => Ok(()),
+        false => Err(EngineError::AttractedSurface.into()),
     }
 }
 

@@ -61,9 +61,9 @@ fn material_error(plan: &ScenarioPlan) -> Option<Warning> {
 fn tabor_parameter(plan: &ScenarioPlan) -> Option<Warning> {
     let compliance = plan.contact.material.compliance().ok()?;
     let softest_pa = compliance.largest_per_pa(plan.drive.duration_s()).recip();
-    let pull_off_n = plan.drive.pull_off_n();
     let adhesion = plan.contact.adhesion?;
-    Warning::of_tabor_parameter(adhesion.tabor_parameter(pull_off_n, softest_pa))
+    let parameter = adhesion.tabor_parameter(plan.contact.indenter.as_ref(), softest_pa)?;
+    Warning::of_tabor_parameter(adhesion.model, parameter)
 }
 
 /// The times of a drive against those in which the material was measured.

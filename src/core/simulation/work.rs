@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 use crate::contact::ContactError;
 use crate::drive::Moment;
 use crate::history::{Hereditary, March};
-use crate::simulation::errors::RowErrors;
+use crate::simulation::errors::{Plan, RowErrors};
 use crate::simulation::scenario::ScenarioPlan;
 use crate::simulation::{HistoryRow, SimulationEnd, SimulationOutcome};
 
@@ -96,6 +96,56 @@ pub fn fill_in(plan: &ScenarioPlan, rows: &mut [HistoryRow]) {
     }
 }
 
+/// The pull of surfaces that attract one another, with errors where they were asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Separation {
+    /// The largest pull (N): the pull-off load where the surfaces part.
+    pub pull_n: f64,
+    pub pull_error_n: Option<f64>,
+    /// The work (J) of the pull that parts them, from where it last begins; `None` where they stay together.
+    pub work_j: Option<f64>,
+    pub work_error_j: Option<f64>,
+}
+
+impl Separation {
+    /// That of a history; `None` where no attraction moves the edge of the contact, or nothing is pulled.
+    pub(super) fn of(plan: &ScenarioPlan, rows: &[HistoryRow]) -> Option<Self> {
+        let pulled = (0..rows.len()).filter(|place| rows[*place].load_n < 0.0);
+        let last_pulled = pulled.clone().next_back();
+        let least = pulled.min_by(|a, b| rows[*a].load_n.total_cmp(&rows[*b].load_n));
+        let (least, last) = least
+            .zip(last_pulled)
+            .filter(|_| plan.contact.is_attracted())?;
+        let begins = rows[..=last].iter().rposition(|row| row.load_n >= 0.0);
+        let mut steps = rows[begins.unwrap_or(0)..].windows(2).filter_map(|pair| {
+            let travel_m = pair[1].approach_m? - pair[0].approach_m?;
+            Some(0.5 * (pair[0].load_n + pair[1].load_n) * travel_m)
+        });
+        let ends_apart = rows
+            .last()
+            .is_some_and(|row| row.load_n == 0.0 && row.contact_radius_m == 0.0);
+        Some(Self {
+            pull_n: -rows[least].load_n,
+            pull_error_n: None,
+            work_j: ends_apart.then(|| steps.by_ref().sum()),
+            work_error_j: None,
+        })
+    }
+
+    /// The same with errors, from what each resolution came to.
+    pub(super) fn with_errors(self, all: &[Option<Self>], plan: &Plan) -> Self {
+        let error = |value: fn(&Self) -> Option<f64>| {
+            let values: Vec<_> = all.iter().map(|own| value(own.as_ref()?)).collect();
+            plan.error_of_whole(&values)
+        };
+        Self {
+            pull_error_n: error(|own| Some(own.pull_n)),
+            work_error_j: error(|own| own.work_j),
+            ..self
+        }
+    }
+}
+
 /// What a history comes to as a whole.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HistoryWork {
@@ -113,11 +163,13 @@ impl HistoryWork {
         let errors = outcome.errors.last().copied();
         let errors: RowErrors = errors.unwrap_or_default();
         let carried_n = last.load_n + plan.drive.pull_off_n();
+        // Attracted surfaces may touch under no load.
+        let is_held = plan.contact.is_attracted() && last.contact_radius_m > 0.0;
         Some(Self {
             work_j: last.work_j?,
             error_j: errors.work_j,
             stored: match outcome.ended {
-                SimulationEnd::Done if carried_n == 0.0 => None,
+                SimulationEnd::Done if carried_n == 0.0 && !is_held => None,
                 SimulationEnd::Done => {
                     Some("the history ends under load: a part of the work is stored in the body")
                 }

@@ -110,7 +110,7 @@ pub(super) const COMMON: [Own; 6] = [
     (
         "adhesion",
         "Quantity | Mapping[str, Any] | None",
-        "Work of adhesion (J/m^2) of a sphere under a prescribed load, or the keys `{\"work\": ..., \"equilibrium_distance\": ...}`.",
+        "Work of adhesion (J/m^2), or the keys of `[adhesion]`, `{\"work\": 0.05, \"range\": \"1 nm\"}`.",
     ),
     (
         "overrides",

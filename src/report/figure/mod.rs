@@ -1,5 +1,6 @@
 //! Figures, one file each: a chart, its caption and the data behind it. [`press`] writes them in the forms asked for.
 
+mod attracted;
 pub mod comparison;
 pub mod curve;
 pub mod cycle_losses;

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use super::curve::{Abscissa, Curve, SweepCurves, chosen, largest};
 use super::line::{self, Line};
 use super::{
-    Drawn, Figure, dissipation, dissipation_map, dissipation_profile, energy_loss, harmonic_map,
-    loops, loss_map, moduli, moduli_error, peaks_over_axis,
+    Drawn, Figure, attracted, dissipation, dissipation_map, dissipation_profile, energy_loss,
+    harmonic_map, loops, loss_map, moduli, moduli_error, peaks_over_axis,
 };
 use crate::report::ReportError;
 use crate::sweep::plan::{SweepPlan, Varied};
@@ -56,13 +56,15 @@ fn of_main_axis(sweep: &SweepCurves<'_>) -> Vec<Drawn> {
             "no figures: no case converged, so there is nothing to draw",
         )];
     };
-    let mut drawn = vec![
-        Ok(energy_loss::figure(sweep)),
-        Ok(loops::figure(sweep)),
-        dissipation::figure(sweep, curve),
-        dissipation_profile::figure(sweep, curve, asked),
-        dissipation_map::figure(sweep, curve),
-    ];
+    let mut drawn = vec![Ok(energy_loss::figure(sweep)), Ok(loops::figure(sweep))];
+    match plan.is_attracted() {
+        true => drawn.extend(attracted::figures(sweep, curve)),
+        false => drawn.extend([
+            dissipation::figure(sweep, curve),
+            dissipation_profile::figure(sweep, curve, asked),
+            dissipation_map::figure(sweep, curve),
+        ]),
+    }
     drawn.extend(moduli::of_sweep(sweep));
     if sweep.family.is_some() && sweep.curves.len() > 1 {
         drawn.extend([loss_map::figure(sweep), harmonic_map::figure(sweep)]);

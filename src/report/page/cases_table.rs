@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::quantity::Dimension;
 use crate::report::number::{cell, digits, largest, prefix};
-use crate::report::quantities::SWEEP;
+use crate::report::quantities::all_of_cases;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::Outcome;
@@ -137,7 +137,7 @@ fn columns(plan: &SweepPlan, records: &[CaseRecord]) -> Vec<Column> {
             ..Column::new(&name, &heading, varied.dimension, None, values)
         });
     }
-    for known in SWEEP {
+    for known in all_of_cases(plan.is_attracted()) {
         let Some(heading) = known.in_cases else {
             continue;
         };

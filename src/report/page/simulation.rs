@@ -291,6 +291,9 @@ fn answer(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Markup {
     if let Some(work) = HistoryWork::of(plan, outcome) {
         facts.add("work of the indenter", words::work(&work));
     }
+    if let Some(separation) = &outcome.separation {
+        facts.add("separation", words::separation(separation));
+    }
     facts.html()
 }
 

@@ -13,7 +13,7 @@ use crate::report::figure::curve::Abscissa;
 use crate::report::figure::moduli::ModulusPoint;
 use crate::report::figure::quantity::Quantity;
 use crate::report::material::MaterialReport;
-use crate::report::quantities::{Column, SWEEP};
+use crate::report::quantities::{Column, all_of_cases};
 use crate::report::words::nodes_name;
 use crate::report::work_line::WorkLine;
 use crate::sweep::plan::{SweepPlan, Varied};
@@ -160,7 +160,9 @@ impl<'a> SweepData<'a> {
         Self {
             kind: "sweep",
             csv,
-            quantities: SWEEP.iter().filter_map(quantity).collect(),
+            quantities: all_of_cases(plan.is_attracted())
+                .filter_map(quantity)
+                .collect(),
             over,
             peaks: &outcome.peaks,
             branches: outcome.branches(),

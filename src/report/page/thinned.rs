@@ -49,7 +49,12 @@ pub(super) fn of_page<'a>(
 ) -> Result<(Cow<'a, Outcome>, Vec<u8>), ReportError> {
     let (branches, unit) = (outcome.branches(), plan.figures.frequency_unit);
     if plan.is_small() {
-        let table = quantities::sweep(&outcome.records, branches, unit, plan.axes.as_ref());
+        let table = quantities::sweep(
+            &outcome.records,
+            (branches, plan.is_attracted()),
+            unit,
+            plan.axes.as_ref(),
+        );
         return Ok((Cow::Borrowed(outcome), table));
     }
     let all = curves(plan, outcome, &Units::of_sweep(plan)?);
@@ -103,7 +108,7 @@ fn of_curve<'a>(
 /// The table in few digits.
 fn small_table(plan: &SweepPlan, branches: usize, records: &[&CaseRecord]) -> Vec<u8> {
     let unit = plan.figures.frequency_unit;
-    let columns = quantities::of_cases(branches, unit, plan.axes.as_ref());
+    let columns = quantities::of_cases((branches, plan.is_attracted()), unit, plan.axes.as_ref());
     let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
     let rows = records.iter().map(|record| {
         let cells = columns.iter().map(|column| match (column.cell)(record) {

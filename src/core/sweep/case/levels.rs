@@ -17,6 +17,9 @@ use crate::sweep::record::error_bars::{Edge, ErrorBars, InNodes, Pair, Quantity,
 const FEWEST_STEPS: usize = 8;
 const FEWEST_NODES: usize = 12;
 
+/// The highest order in the steps that is believed of an edge which moves through attracted springs.
+const ORDER_ATTRACTED: f64 = 1.5;
+
 /// A case under way, and what it has taken so far.
 pub(super) struct Levels<'a> {
     pub setup: &'a Setup,
@@ -201,7 +204,9 @@ impl Levels<'_> {
         let distance = all.finest.distance.filter(|_| of_stabilised);
         let distance = distance.unwrap_or(0.0);
         let of_instants = instant_tolerance::SHARE * contact.cycle.tolerance;
+        let attraction = contact.attraction();
         let (distance, believed) = match self.engine() {
+            EngineKind::Axisymmetric if attraction.is_some() => (distance, InNodes::ATTRACTED),
             EngineKind::Axisymmetric => (distance, InNodes::SPRINGS),
             EngineKind::HalfSpace => {
                 let cell_m = 2.0 * self.effort.domain_half_width_m / at.nodes as f64;
@@ -215,13 +220,20 @@ impl Levels<'_> {
                 (distance + of_instants, InNodes::cells(cell_m, edge))
             }
         };
+        let order_in_steps = match attraction {
+            Some(_) => ORDER_ATTRACTED,
+            None => order_of_steps(&contact.solid.compliance),
+        };
         let bars = ErrorBars::estimate(
             result,
-            (&in_steps, order_of_steps(&contact.solid.compliance)),
+            (&in_steps, order_in_steps),
             (&in_nodes, believed),
             distance,
             &others,
         );
+        if attraction.is_some() {
+            return Some(bars);
+        }
         let drive = &contact.condition.drive;
         let bars = lift_off::widened(bars, (result, at.steps), drive, of_stabilised)?;
         let indenter = contact.condition.contact.indenter.as_ref();
@@ -280,6 +292,9 @@ impl Levels<'_> {
         (fewer, steps): (&[usize], usize),
         domain: &mut (f64, usize),
     ) -> Result<Level, CaseError> {
+        if let Some(attraction) = contact.attraction() {
+            return contact.attracted(attraction, nodes, (fewer, steps));
+        }
         let engines = self.setup.engines_of_case(contact, nodes)?;
         let mut growths = 0;
         loop {
@@ -294,12 +309,8 @@ impl Levels<'_> {
                     }
                 }
                 ended => {
-                    return ended.map(|(coarser, finest)| Level {
-                        nodes,
-                        steps,
-                        finest,
-                        coarser,
-                    });
+                    return ended
+                        .map(|(coarser, finest)| Level::new(nodes, (steps, finest), coarser));
                 }
             }
         }
@@ -342,6 +353,20 @@ impl Levels<'_> {
 }
 
 impl Level {
+    /// Cycles on this many nodes, that in the most steps and those in fewer.
+    pub(super) fn new(
+        nodes: usize,
+        (steps, finest): (usize, Stabilised),
+        coarser: Vec<(usize, Stabilised)>,
+    ) -> Self {
+        Self {
+            nodes,
+            steps,
+            finest,
+            coarser,
+        }
+    }
+
     /// The result in this number of steps.
     fn result(&self, steps: usize) -> Option<&CaseResult> {
         if steps == self.steps {

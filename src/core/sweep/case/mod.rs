@@ -1,6 +1,7 @@
 //! One case of a sweep: the stabilised cycle at the resolution asked for, and at coarser ones for its error bars.
 
 pub(crate) mod accuracy;
+mod attracted;
 pub mod checkpoint;
 mod cycles;
 mod edge_layer;
@@ -219,6 +220,9 @@ impl Setup {
         relaxed_per_pa: f64,
         nodes: usize,
     ) -> Result<EngineBuilder, EngineError> {
+        condition
+            .contact
+            .check_attraction(self.plan.solver.engine)?;
         let largest = LargestContact::of(&condition.drive, relaxed_per_pa);
         let solver = self.plan.solver.with_nodes(nodes);
         let layer = LayerPlan::for_body(

@@ -31,7 +31,10 @@ pub(crate) fn warnings(
         .norm();
     let radius_m = result.contact_radius_m.maximum;
     warnings.extend(slope_warnings(slope, radius_m, modulus_pa));
-    warnings.extend((result.tabor_parameter).and_then(Warning::of_tabor_parameter));
+    let tabor = condition.contact.adhesion.zip(result.tabor_parameter());
+    warnings.extend(
+        tabor.and_then(|(plan, parameter)| Warning::of_tabor_parameter(plan.model, parameter)),
+    );
     warnings.extend(Warning::of_depth(
         condition.contact.layer,
         result.approach_m.maximum,

@@ -8,6 +8,7 @@ use crate::sweep::case::lift_off::{contact_duty, smoothness};
 use crate::sweep::case::pressure::Pressures;
 use crate::sweep::case::stabilise::{CaseError, Contact, Wanted};
 use crate::sweep::case::tangent_radius::TangentRadius;
+use crate::sweep::record::attracted::Attracted;
 use crate::sweep::record::{BranchLoss, CaseResult, CellLoss, RecordedCycle, SurfaceLoss};
 
 /// Where rounding of load and approach is more than this part of the area of a loop, far above and below the spectrum, the loss is
@@ -112,7 +113,9 @@ impl Recording {
             approach_m: extrema(of_approach, &samples.approach_m)?,
             contact_radius_m: not_negative(extrema(of_contact, &samples.contact_radius_m)?),
             contact_duty,
-            tabor_parameter: contact.tabor_parameter(),
+            attraction: (contact.tabor_parameter()).map_or(Attracted::Nothing, |tabor_parameter| {
+                Attracted::Constant { tabor_parameter }
+            }),
             peak_pressure_pa: (peaks.as_deref())
                 .and_then(|peaks| extrema(of_contact, peaks).ok())
                 .map(not_negative),

@@ -155,13 +155,13 @@ impl Contact<'_> {
 
     /// That of an attracted indenter, at the modulus of the body at this frequency.
     pub(super) fn tabor_parameter(&self) -> Option<f64> {
-        let adhesion = self.condition.contact.adhesion?;
+        let contact = &self.condition.contact;
         let omega = self.angular_frequency_rad_per_s;
         let modulus_pa = (self.solid.compliance)
             .complex_compliance(omega)
             .norm()
             .recip();
-        Some(adhesion.tabor_parameter(self.condition.drive.pull_off_n(), modulus_pa))
+        (contact.adhesion?).tabor_parameter(contact.indenter.as_ref(), modulus_pa)
     }
 
     /// Cycles of a march, at most.

@@ -36,7 +36,10 @@ pub enum PlanError {
     Cases { cases: usize },
     #[error(transparent)]
     Block(#[from] Refused),
-    #[error("adhesion is known of a sphere under a prescribed load only")]
+    #[error(
+        "the model of the adhesion does not know this: \"dmt\" is of a sphere under a prescribed load, \"jkr\" of a sphere, \"maugis\" of a \
+         body of revolution"
+    )]
     AdhesionOfOther,
 }
 

@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
+use crate::engine::{EngineError, EngineKind, body_of_revolution};
 use crate::indenter::Indenter;
 use crate::quantity::block::Block as _;
 use crate::quantity::setting::Table;
-use crate::sweep::plan::adhesion::AdhesionPlan;
+use crate::sweep::plan::adhesion::{AdhesionModel, AdhesionPlan};
 use crate::sweep::plan::check::PlanError;
 use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::resolved;
@@ -33,6 +34,12 @@ impl<M> ContactPlan<M> {
         }
     }
 
+    /// Whether an attraction moves the edge of the contact.
+    pub fn is_attracted(&self) -> bool {
+        self.adhesion
+            .is_some_and(|adhesion| adhesion.model != AdhesionModel::Dmt)
+    }
+
     /// The same contact of another material.
     pub fn with_material<N>(&self, material: N) -> ContactPlan<N> {
         ContactPlan {
@@ -52,6 +59,22 @@ impl<M> ContactPlan<M> {
             adhesion.check()?;
         }
         Ok(())
+    }
+
+    /// Checks that an attraction moves the edge of a contact which an engine can follow.
+    pub(crate) fn check_attraction(&self, engine: EngineKind) -> Result<(), EngineError> {
+        if !self.is_attracted() {
+            return Ok(());
+        }
+        if engine == EngineKind::HalfSpace {
+            return Err(EngineError::AttractedCells);
+        }
+        match body_of_revolution(self.indenter.as_ref())?.contact_limit_m() {
+            Some(_) => Err(EngineError::AttractedRim {
+                shape: self.indenter.shape(),
+            }),
+            None => Ok(()),
+        }
     }
 
     /// The blocks of a resolved file, but for the material's, where this is the one of what the indenter is made of.

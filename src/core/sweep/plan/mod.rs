@@ -134,6 +134,11 @@ impl SweepPlan {
         self.conditions().len() * self.angular_frequencies_rad_per_s.len()
     }
 
+    /// Whether an attraction moves the edge of the contact.
+    pub fn is_attracted(&self) -> bool {
+        self.base.contact.is_attracted()
+    }
+
     /// Whether every case has tables of its own, and the cycles of all fit in the memory.
     pub fn is_small(&self) -> bool {
         self.count() <= SMALL

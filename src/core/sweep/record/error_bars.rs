@@ -78,6 +78,12 @@ impl InNodes {
         cells: None,
     };
 
+    /// On springs through which attracted edges move: each that an edge reaches within a step is a kink.
+    pub const ATTRACTED: Self = Self {
+        order: 1.0,
+        ..Self::SPRINGS
+    };
+
     /// On cells of this width (m). Every quantity feels where the edge of the contact lies between two of them, least what a whole
     /// cycle and the whole contact make; for the loss that is predicted (`InNodes::edge_error`), and the difference between grids,
     /// most of which is the coarser one's own edge, tells the rest. Both factors of smooth contacts are from random solids on 48

@@ -1,5 +1,6 @@
 //! What one case came to: the record that is stored, and from which tables and figures are made without solving again.
 
+pub mod attracted;
 pub mod error_bars;
 pub mod material_error;
 mod quantity;
@@ -13,6 +14,7 @@ use crate::cycle::{ContactDuty, Extrema, Loop, LoopAnalysis};
 use crate::drive::Control;
 use crate::history::Work;
 use crate::sweep::plan::{AxisValues, Condition, Method};
+use crate::sweep::record::attracted::{Attracted, AttractedCycle};
 use crate::sweep::record::error_bars::{ErrorBars, Quantity};
 use crate::sweep::record::warning::Warning;
 
@@ -91,8 +93,7 @@ pub struct CaseResult {
     pub approach_m: Extrema,
     pub contact_radius_m: Extrema,
     pub contact_duty: ContactDuty,
-    /// Of an indenter that is attracted.
-    pub tabor_parameter: Option<f64>,
+    pub attraction: Attracted,
     /// `None` where the indenter's shape makes the pressure unbounded.
     pub peak_pressure_pa: Option<Extrema>,
     /// Errors of the numbers above; `None` where they were not asked for or could not be estimated.
@@ -309,9 +310,33 @@ impl CaseResult {
         (numbers.chain(means).chain(samples)).all(f64::is_finite)
     }
 
+    /// What the cycle says besides of a contact whose edge an attraction moves.
+    pub fn attracted(&self) -> Option<&AttractedCycle> {
+        match &self.attraction {
+            Attracted::Edge(cycle) => Some(cycle),
+            Attracted::Nothing | Attracted::Constant { .. } => None,
+        }
+    }
+
+    /// Tabor's parameter of a sphere that is attracted.
+    pub fn tabor_parameter(&self) -> Option<f64> {
+        match &self.attraction {
+            Attracted::Nothing => None,
+            Attracted::Constant { tabor_parameter } => Some(*tabor_parameter),
+            Attracted::Edge(cycle) => cycle.tabor_parameter,
+        }
+    }
+
     /// Energy (J) dissipated by all branches.
     pub fn dissipated_j(&self) -> f64 {
         self.branches.iter().map(|b| b.energy_loss_j).sum()
+    }
+
+    /// What dissipates under the edge of a contact that an attraction moves (J): the loss without that of the bulk and of jumps.
+    pub fn edge_loss_j(&self) -> Option<f64> {
+        let attracted = self.attracted()?;
+        let others_j = attracted.bulk_loss_j + attracted.jump_loss_j();
+        Some(self.analysis.energy_loss_j - others_j)
     }
 
     /// Energy (J) dissipated in the indenter; `None` where that is rigid.

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::cycle::Extrema;
-use crate::quantity::Dimension::{self, Angle, Energy, Length, Stress};
+use crate::quantity::Dimension::{self, Angle, Energy, Force, Length, Stress};
 use crate::sweep::record::CaseResult;
 
 /// Everything that tables, comparisons and error bars know of a quantity.
@@ -138,11 +138,53 @@ quantities! {
         column: "harmonic_3", dimension: None, value: |r| r.analysis.approach_harmonic(3),
         in_nodes: Smooth, in_steps: Extreme, relative_to: One, edge: Harmonic,
     }
+    BulkLoss {
+        column: "bulk_loss_j", dimension: Some(Energy), value: |r| Some(r.attracted()?.bulk_loss_j),
+        in_nodes: Local, in_steps: OfCycle, relative_to: LOSS, edge: Nothing,
+    }
+    EdgeLoss {
+        column: "edge_loss_j", dimension: Some(Energy), value: |r| r.edge_loss_j(),
+        in_nodes: Local, in_steps: OfCycle, relative_to: LOSS, edge: Nothing,
+    }
+    JumpLoss {
+        column: "jump_loss_j", dimension: Some(Energy), value: |r| Some(r.attracted()?.jump_loss_j()),
+        in_nodes: Local, in_steps: OfCycle, relative_to: LOSS, edge: Nothing,
+    }
+    ZoneRadiusMin {
+        column: "zone_radius_min_m", dimension: Some(Length), value: |r| Some(r.attracted()?.zone_radius_m.minimum),
+        in_nodes: Local, in_steps: Extreme, relative_to: LARGEST_RADIUS, edge: Nothing,
+    }
+    ZoneRadiusMax {
+        column: "zone_radius_max_m", dimension: Some(Length), value: |r| Some(r.attracted()?.zone_radius_m.maximum),
+        in_nodes: Local, in_steps: Extreme, relative_to: LARGEST_RADIUS, edge: Nothing,
+    }
+    LargestPull {
+        column: "pull_max_n", dimension: Some(Force), value: |r| Some(r.attracted()?.pull_n),
+        in_nodes: Local, in_steps: Extreme, relative_to: Itself, edge: Nothing,
+    }
+    SnapInApproach {
+        column: "snap_in_approach_m", dimension: Some(Length), value: |r| Some(r.attracted()?.snap_in()?.approach_m),
+        in_nodes: Local, in_steps: OfCycle, relative_to: LARGEST_APPROACH, edge: Nothing,
+    }
+    SnapInLoad {
+        column: "snap_in_load_n", dimension: Some(Force), value: |r| Some(r.attracted()?.snap_in()?.load_n),
+        in_nodes: Local, in_steps: OfCycle, relative_to: Itself, edge: Nothing,
+    }
+    SnapOffApproach {
+        column: "snap_off_approach_m", dimension: Some(Length), value: |r| Some(r.attracted()?.snap_off()?.approach_m),
+        in_nodes: Local, in_steps: OfCycle, relative_to: LARGEST_APPROACH, edge: Nothing,
+    }
+    SnapOffLoad {
+        column: "snap_off_load_n", dimension: Some(Force), value: |r| Some(r.attracted()?.snap_off()?.load_n),
+        in_nodes: Local, in_steps: OfCycle, relative_to: Itself, edge: Nothing,
+    }
 }
 
 /// What is missing of a memory adds to the whole approach, not to its range alone.
 const LARGEST_APPROACH: RelativeTo = Largest(|r| r.approach_m.maximum.abs());
 const LARGEST_RADIUS: RelativeTo = Largest(|r| r.contact_radius_m.maximum);
+/// What is missing of a cycle is missing of the whole loss.
+const LOSS: RelativeTo = Largest(|r| r.analysis.energy_loss_j.abs());
 const LARGEST_PRESSURE: RelativeTo =
     Largest(|r| r.peak_pressure_pa.map_or(0.0, |pressure| pressure.maximum));
 

@@ -10,6 +10,7 @@ use crate::indenter::{Domain, Indenter};
 use crate::material::Material;
 use crate::material::dynamic::SAME_TEMPERATURE_K;
 use crate::quantity::{Dimension, FrequencyUnit, celsius, format_prose};
+use crate::sweep::plan::adhesion::AdhesionModel;
 use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::record::CaseResult;
 use crate::sweep::record::error_bars::Quantity;
@@ -132,8 +133,13 @@ impl Warning {
     }
 
     /// What is to be said of Tabor's parameter.
-    pub(crate) fn of_tabor_parameter(parameter: f64) -> Option<Self> {
-        (parameter > LARGEST_TABOR_PARAMETER).then_some(Self::TaborParameter { parameter })
+    pub(crate) fn of_tabor_parameter(model: AdhesionModel, parameter: f64) -> Option<Self> {
+        let is_outside = match model {
+            AdhesionModel::Maugis => false,
+            AdhesionModel::Dmt => parameter > LARGEST_TABOR_PARAMETER,
+            AdhesionModel::Jkr => parameter < JKR_TABOR_PARAMETER,
+        };
+        is_outside.then_some(Self::TaborParameter { parameter })
     }
 
     /// What is to be said of the largest contact (m, its radius) under a map.
@@ -318,8 +324,8 @@ impl Warning {
                 two_digits(part)
             ),
             Self::TaborParameter { parameter } => format!(
-                "Tabor's parameter is up to {}: DMT adhesion holds up to about {LARGEST_TABOR_PARAMETER}, and from about \
-                 {JKR_TABOR_PARAMETER} on that of Johnson, Kendall and Roberts, which is not solved here",
+                "Tabor's parameter is up to {}: model = \"dmt\" holds up to about {LARGEST_TABOR_PARAMETER}, \"jkr\" from about \
+                 {JKR_TABOR_PARAMETER} on, and \"maugis\", the default, throughout",
                 two_digits(parameter)
             ),
             Self::FewCells { cells } => format!(
@@ -431,7 +437,7 @@ mod tests {
             "lasts 2000 s",
             "strains up to 7.3 %: a glassy material is linear up to about 1 %",
             "up to 361 at a contact radius of 3.61 µm: the model takes them as small, up to about 0.2",
-            "is up to 12: DMT adhesion holds up to about 0.1, and from about 5 on",
+            "is up to 12: model = \"dmt\" holds up to about 0.1, \"jkr\" from about 5 on",
             "has 1 of the map's cells, too few for a shape (at least 20)",
             "the energy loss, -4.90 pJ, is below zero",
             "only 2.9 of the time steps of a cycle: at least 10 are needed, so cycle.steps must be 3.5 times as many",

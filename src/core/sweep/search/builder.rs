@@ -10,7 +10,7 @@ use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::quantity::block::Block as _;
 use crate::sweep::case::{Setup, SetupError};
-use crate::sweep::plan::adhesion::AdhesionPlan;
+use crate::sweep::plan::adhesion::{AdhesionModel, AdhesionPlan};
 use crate::sweep::plan::check::PlanError;
 use crate::sweep::plan::{Axes, Case, Method, SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
@@ -125,21 +125,18 @@ impl Sweep {
         self.with(|plan| plan.cycle.steps = steps)
     }
 
-    /// A sphere that the surface attracts, with this work of adhesion (J/m^2), by the theory of Derjaguin, Muller and Toporov: see
-    /// [`crate::sweep::plan::adhesion`].
+    /// An indenter that the surface attracts: see [`crate::sweep::plan::adhesion`].
     ///
     /// # Errors
-    /// A work that is not positive and finite, another indenter than a sphere, a prescribed approach, a load at which the sphere comes
-    /// off.
-    pub fn attracted(self, work_j_per_m2: f64) -> Result<Self, SetupError> {
-        let adhesion = AdhesionPlan {
-            work_j_per_m2,
-            equilibrium_distance_m: AdhesionPlan::EQUILIBRIUM_DISTANCE_M,
-        };
+    /// A number that is not positive and finite, a shape or a control that the model does not know, a load at which a sphere of
+    /// Derjaguin, Muller and Toporov comes off.
+    pub fn attracted(self, adhesion: AdhesionPlan) -> Result<Self, SetupError> {
         adhesion.check().map_err(PlanError::from)?;
-        let pull_off_n = adhesion.pull_off_n(self.plan.base.contact.indenter.as_ref());
-        let is_load = self.plan.base.drive.control() == Control::Load;
-        let pull_off_n = pull_off_n.filter(|_| is_load);
+        let base = &self.plan.base;
+        let pull_off_n = adhesion.pull_off_n(base.contact.indenter.as_ref());
+        let is_known =
+            |_: &f64| base.drive.control() == Control::Load || adhesion.model != AdhesionModel::Dmt;
+        let pull_off_n = pull_off_n.filter(is_known);
         let pull_off_n = pull_off_n.ok_or(PlanError::AdhesionOfOther)?;
         let drive = self.plan.base.drive.attracted_by(pull_off_n)?;
         Ok(self.with(|plan| {

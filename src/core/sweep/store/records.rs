@@ -598,7 +598,7 @@ mod tests {
             "approach_m": {"minimum": 0.0, "maximum": 1.0},
             "contact_radius_m": {"minimum": 0.0, "maximum": 1.0},
             "contact_duty": {"part": 1.0, "error": 0.0},
-            "tabor_parameter": 2.0, "peak_pressure_pa": {"minimum": 0.0, "maximum": 1.0},
+            "attraction": {"Constant": {"tabor_parameter": 2.0}}, "peak_pressure_pa": {"minimum": 0.0, "maximum": 1.0},
             "errors": {"bars": {"energy_loss": {"steps": 1.0, "nodes": 2.0, "steady": 3.0, "material": 4.0}}},
             "replica_losses_j": [1.0, null],
             "branches": [{"retardation_time_s": 1.0, "energy_loss_j": 1.0, "indenter_share": 0.5}],
