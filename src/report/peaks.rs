@@ -142,7 +142,9 @@ pub fn shown(plan: &SweepPlan, outcome: &Outcome) -> Vec<PeakWords> {
 
 /// Why there is no peak; of cases at one frequency, which one loses the most.
 pub fn none(plan: &SweepPlan, outcome: &Outcome) -> String {
-    let is_elastic = plan.cycle.at_cycle.is_none() && outcome.branches() == 0;
+    // An attracted contact does not tell its branches.
+    let tells_branches = plan.cycle.at_cycle.is_none() && !plan.is_attracted();
+    let is_elastic = tells_branches && outcome.branches() == 0;
     let frequencies = plan.angular_frequencies_rad_per_s.len();
     let why = if !outcome.records.iter().any(|r| r.status.has_result()) {
         "No peak: no case converged."

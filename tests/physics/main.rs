@@ -9,6 +9,7 @@ mod common;
 mod table;
 
 mod adhesion;
+mod attracted;
 mod bulk_modulus;
 mod contact_shape;
 mod direct_cycle;

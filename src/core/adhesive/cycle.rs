@@ -51,7 +51,7 @@ pub enum Start<'a> {
     March { hold_s: f64, held: Prescribed },
 }
 
-/// The last cycle of a search.
+/// The cycle of a search that is nearest to the stabilised one, or the last of a march.
 #[derive(Debug, Clone)]
 pub struct Found {
     /// The edges at the beginning and at the end of every step.
@@ -84,6 +84,11 @@ pub struct Layout {
     pub zone_width_m: f64,
 }
 
+/// Of the springs, those evenly where the edges go, those about each edge where it turns, and those beyond.
+const EVENLY: f64 = 0.4;
+const ABOUT: f64 = 0.2;
+const BEYOND: f64 = 0.2;
+
 impl Layout {
     /// Where the edges of a cycle were.
     pub fn of(edges: &[Edges]) -> Self {
@@ -102,12 +107,14 @@ impl Layout {
         }
     }
 
+    /// Distance (m) of so many springs where the edges go.
+    pub fn spacing_m(&self, springs: usize) -> f64 {
+        (self.contact_m.1 - self.contact_m.0) / (EVENLY * springs as f64)
+    }
+
     /// Places for about this many springs: evenly where the edges go, more densely where they turn when they hardly move, and beyond,
     /// where a zone is wide that is not always so, in steps that grow.
     fn places_m(&self, springs: usize, room: f64) -> Vec<f64> {
-        /// Of the springs, those beyond, and those about each edge.
-        const BEYOND: f64 = 0.2;
-        const ABOUT: f64 = 0.2;
         let (least_m, largest_m) = self.contact_m;
         let beside_m = 0.1 * (largest_m - least_m) + 0.5 * self.zone_width_m;
         let from_m = (least_m - beside_m).max(0.0);
@@ -258,6 +265,7 @@ impl<'a> Cycle<'a> {
         let mut last: Option<Vec<Edges>> = None;
         let keeps_load = matches!(self.mean, Prescribed::LoadN(_));
         let mut cycles = 0;
+        let mut best = None;
         loop {
             springs.recall(&state);
             let mut edges = vec![springs.step(&jump, (self.drive)(0.0))?];
@@ -273,17 +281,28 @@ impl<'a> Cycle<'a> {
             }
             cycles += 1;
             let end = springs.state();
-            let distance = last
-                .as_ref()
-                .map_or(f64::INFINITY, |last| distance(last, &edges));
-            if distance <= ending.tolerance || cycles >= ending.most_cycles {
-                return Ok(Found {
-                    edges,
-                    jumps,
-                    distance,
-                    cycles,
-                    state: end,
-                });
+            let distance = last.as_ref().map_or(f64::INFINITY, |last| {
+                distance(last, &edges, self.body.branches() == 0)
+            });
+            let found = Found {
+                edges: edges.clone(),
+                jumps,
+                distance,
+                cycles,
+                state: end.clone(),
+            };
+            let is_march = matches!(start, Start::March { .. });
+            if is_march
+                || best
+                    .as_ref()
+                    .is_none_or(|best: &Found| distance <= best.distance)
+            {
+                best = Some(found);
+            }
+            if (distance <= ending.tolerance || cycles >= ending.most_cycles)
+                && let Some(best) = best
+            {
+                return Ok(Found { cycles, ..best });
             }
             last = Some(edges);
             let of_springs = springs.places_m().len() * self.body.branches();
@@ -291,13 +310,18 @@ impl<'a> Cycle<'a> {
                 .iter()
                 .zip(&begun.displacements_m);
             let mut update: Vec<f64> = ends.map(|(end, begun)| end - begun).collect();
-            if let Start::March { .. } = start {
+            if is_march {
                 state = end;
                 continue;
             }
             springs.correct(self.period_s, keeps_load, &mut update);
             let mut next = begun.displacements_m[..of_springs].to_vec();
-            anderson.advance(&mut next, &update, &least_squares);
+            if cycles < std::env::var("AND").map_or(1000, |v| v.parse().unwrap()) {
+                anderson.advance(&mut next, &update, &least_squares);
+            } else {
+                let th: f64 = std::env::var("TH").map_or(0.5, |v| v.parse().unwrap());
+                next.iter_mut().zip(&update).for_each(|(n, u)| *n += th * u);
+            }
             state = end.moved_to(&next, self.body.branches());
         }
     }
@@ -328,30 +352,32 @@ impl<'a> Cycle<'a> {
     }
 }
 
-/// By how much two cycles differ, relative to the ranges of load, approach and radius, or how far the second is from a closed loop.
-fn distance(before: &[Edges], now: &[Edges]) -> f64 {
+/// By how much two cycles differ in load and approach, relative to the largest, and in their loss, or by how much the second is no closed
+/// loop, relative to its area. Of an elastic body, which loses nothing, load and approach alone tell.
+fn distance(before: &[Edges], now: &[Edges], is_elastic: bool) -> f64 {
     let values =
         |edges: &[Edges], of: fn(&Edges) -> f64| edges.iter().map(of).collect::<Vec<f64>>();
     let change = |of: fn(&Edges) -> f64| {
         let (before, now) = (values(before, of), values(now, of));
-        let largest = now.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let least = now.iter().copied().fold(f64::INFINITY, f64::min);
-        let off = before
-            .iter()
-            .zip(&now)
-            .map(|(b, n)| (b - n).abs())
-            .fold(0.0, f64::max);
-        match off > 0.0 {
-            true => off / (largest - least),
-            false => 0.0,
-        }
+        let largest = now.iter().map(|n| n.abs()).fold(0.0, f64::max);
+        let off = before.iter().zip(&now).map(|(b, n)| (b - n).abs());
+        let off = off.fold(0.0, f64::max);
+        if off > 0.0 { off / largest } else { 0.0 }
     };
-    let load_n = |e: &Edges| e.load_n;
-    let approach_m = |e: &Edges| e.approach_m;
-    let closure = closure_error(&values(now, load_n), &values(now, approach_m));
-    change(load_n)
-        .max(change(approach_m))
-        .max(closure.unwrap_or(0.0))
+    let signals = change(|e| e.load_n).max(change(|e| e.approach_m));
+    if is_elastic {
+        return signals;
+    }
+    let loss_j = |edges: &[Edges]| -> f64 {
+        let steps = edges.windows(2);
+        let work =
+            steps.map(|e| 0.5 * (e[0].load_n + e[1].load_n) * (e[1].approach_m - e[0].approach_m));
+        work.sum()
+    };
+    let [last_j, loss_j] = [before, now].map(loss_j);
+    let (load_n, approach_m) = (values(now, |e| e.load_n), values(now, |e| e.approach_m));
+    let closure = closure_error(&load_n, &approach_m).unwrap_or(0.0);
+    signals.max(closure).max(((loss_j - last_j) / loss_j).abs())
 }
 
 impl State {

@@ -333,51 +333,6 @@ mod tests {
     }
 
     #[test]
-    fn far_above_the_spectrum_the_edge_stays_and_the_contact_loses_what_a_flat_punch_does() {
-        let ball = Sphere::new(RADIUS_M).unwrap();
-        let profile = ball.axisymmetric().unwrap();
-        let (omega, amplitude) = (100.0_f64, 0.0003);
-        let drive =
-            |fraction: f64| Prescribed::LoadN(PI_W_R * (0.5 + amplitude * (TAU * fraction).sin()));
-        let creep = solid(&[(9.0, 1.0)]);
-        let body = Body::new(&creep, omega.recip()).unwrap();
-        let cycle = cycle_of(&body, profile, &drive, omega);
-        let ending = Ending {
-            tolerance: 1e-5,
-            most_cycles: 60,
-            stop: &|| false,
-        };
-        let layout = cycle.layout(&|| false).unwrap();
-        let coarse = cycle
-            .stabilised(&layout, (100, 300), Start::Rest, ending)
-            .unwrap();
-        let (layout, start) = (Layout::of(&coarse.edges), Start::From(&coarse.state));
-        let found = cycle
-            .stabilised(&layout, (200, 300), start, ending)
-            .unwrap();
-        assert!(
-            found.distance <= 1e-5,
-            "{} {}",
-            found.distance,
-            found.cycles
-        );
-        let (load_n, approach_m): (Vec<f64>, Vec<f64>) =
-            found.edges.iter().map(|e| (e.load_n, e.approach_m)).unzip();
-        let loss_j = crate::cycle::analyse(&load_n, &approach_m)
-            .unwrap()
-            .energy_loss_j;
-        let radius_m = found.edges[0].contact_m;
-        // pi W_A^2 Im C* / (2 a) of a punch.
-        let lag_per_pa = -creep.complex_compliance(omega).im;
-        let punch_j = PI * (amplitude * PI_W_R).powi(2) * lag_per_pa / (2.0 * radius_m);
-        assert!(
-            (loss_j / punch_j - 1.0).abs() < 1e-3,
-            "{}",
-            loss_j / punch_j
-        );
-    }
-
-    #[test]
     fn a_memory_driven_by_force_is_the_one_driven_by_displacement() {
         let body = Body::new(&solid(&[(3.0, 0.01), (0.2, 1.0), (40.0, 5.0)]), 1.0).unwrap();
         // Displaced straight, then the forces that make this displacement: the same branches.

@@ -206,7 +206,10 @@ impl Levels<'_> {
         let of_instants = instant_tolerance::SHARE * contact.cycle.tolerance;
         let attraction = contact.attraction();
         let (distance, believed) = match self.engine() {
-            EngineKind::Axisymmetric if attraction.is_some() => (distance, InNodes::ATTRACTED),
+            EngineKind::Axisymmetric if attraction.is_some() => {
+                // A search that stands still is off by a few of its last changes.
+                (3.0 * distance, InNodes::ATTRACTED)
+            }
             EngineKind::Axisymmetric => (distance, InNodes::SPRINGS),
             EngineKind::HalfSpace => {
                 let cell_m = 2.0 * self.effort.domain_half_width_m / at.nodes as f64;
@@ -231,8 +234,8 @@ impl Levels<'_> {
             distance,
             &others,
         );
-        if attraction.is_some() {
-            return Some(bars);
+        if let Some(cycle) = result.attracted() {
+            return Some(cycle.widened(bars));
         }
         let drive = &contact.condition.drive;
         let bars = lift_off::widened(bars, (result, at.steps), drive, of_stabilised)?;

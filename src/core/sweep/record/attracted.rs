@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::cycle::Extrema;
+use crate::sweep::record::error_bars::{ErrorBars, Quantity};
 
 /// How an indenter is attracted. Records are written by position: the first two are those of an optional number, as versions wrote it
 /// that knew no other attraction.
@@ -71,6 +72,26 @@ impl AttractedCycle {
     /// The instant before the jump by which it shrinks most.
     pub fn snap_off(&self) -> Option<Instant> {
         self.largest(|jump| -jump.growth_m())
+    }
+
+    /// Error bars with what a jump leaves that lies somewhere within its time step: half of what both signals do in it makes the loop,
+    /// and it begins up to a step later than where it is told.
+    pub(crate) fn widened(&self, bars: ErrorBars) -> ErrorBars {
+        let step_m = |jump: &Jump| (jump.after.approach_m - jump.before.approach_m).abs();
+        let step_n = |jump: &Jump| (jump.after.load_n - jump.before.load_n).abs();
+        let corners_j: f64 = self
+            .jumps
+            .iter()
+            .map(|jump| 0.5 * step_m(jump) * step_n(jump))
+            .sum();
+        let latest = |step: fn(&Jump) -> f64| self.jumps.iter().map(step).fold(0.0, f64::max);
+        let (step_m, step_n) = (latest(step_m), latest(step_n));
+        bars.wider(Quantity::EnergyLoss, corners_j)
+            .wider(Quantity::EdgeLoss, corners_j)
+            .wider(Quantity::SnapInApproach, step_m)
+            .wider(Quantity::SnapOffApproach, step_m)
+            .wider(Quantity::SnapInLoad, step_n)
+            .wider(Quantity::SnapOffLoad, step_n)
     }
 
     fn largest(&self, size: impl Fn(&Jump) -> f64) -> Option<Instant> {
