@@ -17,20 +17,37 @@ impl Attraction {
         -2.0 * self.stress_pa * root(zone_m, x_m)
     }
 
-    /// Its mean while the edge moves straight from one place to another. Of the root of (c - x) (c + x) the second factor, which
-    /// hardly changes, is taken at the middle.
-    pub(super) fn mean_force(&self, x_m: f64, (from_m, to_m): (f64, f64)) -> f64 {
-        let (from, to) = (from_m - x_m, to_m - x_m);
-        let (low, high) = (from.min(to), from.max(to));
-        if high <= 0.0 {
-            return 0.0;
-        }
-        let mean = match low >= 0.0 {
-            true => (low + (low * high).sqrt() + high) / (low.sqrt() + high.sqrt()),
-            false => high * high.sqrt() / (high - low),
-        };
-        let beside = (0.5 * (from_m + to_m) + x_m).sqrt();
-        -2.0 * self.stress_pa * beside * (2.0 / 3.0) * mean
+    /// Its means over parts of a way that the edge moves straight, between these fractions of it. Of the root of (c - x) (c + x) the
+    /// second factor, which hardly changes, is taken at the middle of each part.
+    pub(super) fn mean_forces(
+        &self,
+        x_m: f64,
+        (from_m, to_m): (f64, f64),
+        ends: &[f64],
+    ) -> impl Iterator<Item = f64> {
+        let beside_m = 0.5 * (from_m + to_m) + x_m;
+        let scale = -4.0 / 3.0 * self.stress_pa * beside_m.sqrt();
+        let at = move |end: &f64| from_m - x_m + (to_m - from_m) * end;
+        let first = ends.first().map_or(0.0, at);
+        let mut last = (first, first.max(0.0).sqrt());
+        ends.iter().skip(1).map(move |end| {
+            let here = at(end);
+            let here = (here, here.max(0.0).sqrt());
+            let (low, high) = if here.0 > last.0 {
+                (last, here)
+            } else {
+                (here, last)
+            };
+            let mean = match (low.0 >= 0.0, high.0 > 0.0) {
+                (_, false) => 0.0,
+                (true, true) => (low.0 + low.1 * high.1 + high.0) / (low.1 + high.1),
+                (false, true) => high.0 * high.1 / (high.0 - low.0),
+            };
+            // The root of 1 + 2 u, as far as it is seen.
+            let u = (0.5 * (last.0 + here.0) + 2.0 * x_m - beside_m) / (2.0 * beside_m);
+            last = here;
+            scale * mean * (1.0 + u * (1.0 - 0.5 * u * (1.0 - u)))
+        })
     }
 
     /// Twice the integral (N) of the force over the springs from `contact_m` to `zone_m`.

@@ -41,9 +41,10 @@ impl Springs<'_> {
         };
         let from = Sector::at(contact_m, zone_m, approach_m - gap_m - per_pa * force);
         // What the gap would be without the past: exactly, in the angle in which the root is none.
-        let sector = FRAC_PI_2 - from.angle;
+        let angle = from.sine.atan2(from.cosine);
+        let sector = FRAC_PI_2 - angle;
         let free = GAUSS.iter().map(|(at, weight)| {
-            let x_m = zone_m * (from.angle + sector * at).sin();
+            let x_m = zone_m * (angle + sector * at).sin();
             weight * (self.profile.transformed_gap_m(x_m) - approach_m)
         });
         let mut sum_m = sector * free.sum::<f64>();
@@ -117,7 +118,6 @@ impl Springs<'_> {
 /// A place within the zone, x = c sin(angle), and a displacement (m) there.
 #[derive(Clone, Copy)]
 struct Sector {
-    angle: f64,
     sine: f64,
     cosine: f64,
     displacement_m: f64,
@@ -127,16 +127,28 @@ impl Sector {
     fn at(x_m: f64, zone_m: f64, displacement_m: f64) -> Self {
         let (sine, cosine) = (x_m / zone_m, root(zone_m, x_m) / zone_m);
         Self {
-            angle: sine.atan2(cosine),
             sine,
             cosine,
             displacement_m,
         }
     }
 
+    /// The angle between two places, from its sine; mostly so small that the first terms of the series are all of it.
+    fn angle_to(&self, end: &Self) -> f64 {
+        let sine = end.sine * self.cosine - end.cosine * self.sine;
+        let square = sine * sine;
+        match square < 1e-3 {
+            true => {
+                sine * (1.0
+                    + square * (1.0 / 6.0 + square * (3.0 / 40.0 + square * (15.0 / 336.0))))
+            }
+            false => sine.atan2(end.cosine * self.cosine + end.sine * self.sine),
+        }
+    }
+
     /// The integral over the angle of a displacement that is straight in the cosine.
     fn integral_to(&self, end: &Self) -> f64 {
-        let (angle, cosine) = (end.angle - self.angle, end.cosine - self.cosine);
+        let (angle, cosine) = (self.angle_to(end), end.cosine - self.cosine);
         if cosine.abs() < 1e-9 {
             return 0.5 * angle * (self.displacement_m + end.displacement_m);
         }

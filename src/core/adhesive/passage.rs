@@ -10,12 +10,10 @@ impl Springs<'_> {
         if weights.step_s == 0.0 || self.now.zone_m.max(zone_m) <= x_m {
             return 0.0;
         }
-        let parts = weights
-            .along(self.now.zone_m, zone_m)
-            .zip(&weights.compliance_per_pa);
-        parts
-            .map(|(ends, per_pa)| per_pa * self.attraction.mean_force(x_m, ends))
-            .sum()
+        let way_m = (self.now.zone_m, zone_m);
+        let means = self.attraction.mean_forces(x_m, way_m, &weights.ends);
+        let parts = means.zip(&weights.compliance_per_pa);
+        parts.map(|(mean, per_pa)| per_pa * mean).sum()
     }
 
     /// Moves the branches of such a spring on.
@@ -32,9 +30,9 @@ impl Springs<'_> {
         if weights.step_s == 0.0 || self.now.zone_m.max(zone_m) <= x_m {
             return;
         }
-        let parts = weights.along(self.now.zone_m, zone_m).zip(&weights.added);
-        for (ends, added) in parts {
-            let mean = self.attraction.mean_force(x_m, ends);
+        let way_m = (self.now.zone_m, zone_m);
+        let means = self.attraction.mean_forces(x_m, way_m, &weights.ends);
+        for (mean, added) in means.zip(&weights.added) {
             for (force, added) in forces.iter_mut().zip(added) {
                 *force += added * mean;
             }
@@ -54,14 +52,14 @@ impl Springs<'_> {
         weights: &StepWeights,
         share: f64,
         x_m: f64,
-        (from_m, to_m): (f64, f64),
+        way_m: (f64, f64),
         forces: &mut [f64],
     ) {
         if share * weights.step_s <= 0.0 {
             return;
         }
-        for (part, ends) in weights.along(from_m, to_m).enumerate() {
-            let mean = self.attraction.mean_force(x_m, ends);
+        let means = self.attraction.mean_forces(x_m, way_m, &weights.ends);
+        for (part, mean) in means.enumerate() {
             let time_s = share * weights.step_s * (weights.ends[part + 1] - weights.ends[part]);
             for (force, retardation_s) in forces.iter_mut().zip(&self.body.retardation_times_s) {
                 *force = mean + (-time_s / retardation_s).exp() * (*force - mean);

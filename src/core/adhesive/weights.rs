@@ -94,12 +94,4 @@ impl StepWeights {
             ends,
         }
     }
-
-    /// Where an edge that moves straight is when each part begins and ends.
-    pub(super) fn along(&self, from_m: f64, to_m: f64) -> impl Iterator<Item = (f64, f64)> {
-        let at = move |end: f64| from_m + end * (to_m - from_m);
-        self.ends
-            .windows(2)
-            .map(move |ends| (at(ends[0]), at(ends[1])))
-    }
 }

@@ -55,9 +55,9 @@ impl AdhesionPlan {
     /// bodies (J. N. Israelachvili, *Intermolecular and Surface Forces*, 3rd ed. 2011, section 13.9).
     pub const RANGE_M: f64 = 0.16e-9;
 
-    /// Tabor's parameter of the relaxed body in place of the infinite one of JKR: the pull-off load is within 0.2 %, radius and stiffness
-    /// within 2 %.
-    const JKR_TABOR_PARAMETER: f64 = 8.0;
+    /// Tabor's parameter of the relaxed body in place of the infinite one of JKR: the pull-off load is within 0.4 %, the radius
+    /// without load within 1 %.
+    const JKR_TABOR_PARAMETER: f64 = 5.0;
 
     /// z0 of a range.
     const DISTANCE_OF_RANGE: f64 = 1.026_400;
