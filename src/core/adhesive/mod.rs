@@ -332,6 +332,57 @@ mod tests {
         assert!((second / last - 1.0).abs() > 0.02, "{second} {last}");
     }
 
+    /// What the dashpots of all springs take up in a cycle, and the area of its loop, of the seventh cycle of a march.
+    fn dissipated_and_lost(omega: f64, steps: usize, springs: usize) -> (f64, f64) {
+        let ball = Sphere::new(RADIUS_M).unwrap();
+        let (_, attraction) = sphere(3.24);
+        let body = Body::new(&solid(&[(9.0, 1.0)]), omega.recip()).unwrap();
+        let mut places_m = vec![0.0];
+        places_m.extend(evenly(0.238, 0.27, springs));
+        let profile = ball.axisymmetric().unwrap();
+        let mut springs = Springs::new(&body, profile, attraction, places_m);
+        springs.rest(Prescribed::LoadN(0.5 * PI_W_R)).unwrap();
+        let step_s = TAU / omega / steps as f64;
+        let weights = StepWeights::new(&body, step_s);
+        let (mut edges, mut dissipated_j) = (Vec::new(), 0.0);
+        for step in 0..=7 * steps {
+            let phase = TAU * step as f64 / steps as f64;
+            let before = springs.state().parts().0.to_vec();
+            let load_n = PI_W_R * (0.5 + 0.4 * phase.sin());
+            edges.push(springs.step(&weights, Prescribed::LoadN(load_n)).unwrap());
+            if step <= 6 * steps {
+                continue;
+            }
+            let after = springs.state();
+            let moved = before.iter().zip(after.parts().0);
+            let moved = moved.map(|(before, after)| (after - before).powi(2));
+            // E tau times the square of the rate.
+            let power: Vec<f64> = moved.map(|square| 9.0 * square / step_s).collect();
+            let places = springs.places_m().windows(2).zip(power.windows(2));
+            let rows = places.map(|(x, p)| (x[1] - x[0]) * (p[0] + p[1]));
+            dissipated_j += rows.sum::<f64>();
+        }
+        (
+            dissipated_j / (PI_W_R * LENGTH_M),
+            area(&edges[6 * steps..]),
+        )
+    }
+
+    #[test]
+    fn what_the_dashpots_take_up_is_what_the_loop_loses() {
+        let off = |omega: f64, steps: usize, springs: usize| {
+            let (dissipated, lost) = dissipated_and_lost(omega, steps, springs);
+            dissipated / lost - 1.0
+        };
+        assert!(off(0.1, 200, 400).abs() < 1e-3);
+        // The rate of a spring at the edge has no bound, and squares of differences are below its own.
+        let [coarse, fine] = [(100, 200), (200, 400)].map(|(n, m)| off(0.01, n, m));
+        assert!(
+            fine.abs() < 3e-3 && fine.abs() < 0.6 * coarse.abs(),
+            "{coarse} {fine}"
+        );
+    }
+
     #[test]
     fn a_memory_driven_by_force_is_the_one_driven_by_displacement() {
         let body = Body::new(&solid(&[(3.0, 0.01), (0.2, 1.0), (40.0, 5.0)]), 1.0).unwrap();
