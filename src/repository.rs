@@ -10,7 +10,7 @@ use serde_json::json;
 use crate::citation;
 use crate::input::keys::{self, FileKind};
 use crate::input::{key_reference, python_calls, schema};
-use crate::report::quantities::{CYCLES, HISTORY, SWEEP, reference};
+use crate::report::quantities::{ATTRACTED, CYCLES, HISTORY, SWEEP, reference};
 
 /// What stands in a file of the repository.
 enum Part {
@@ -115,6 +115,7 @@ fn parts(commands: &str) -> Vec<(String, Part)> {
     );
     for (name, columns) in [
         ("sweep.csv", reference(SWEEP)),
+        ("sweep.csv with an attraction", reference(ATTRACTED)),
         ("history.csv", reference(HISTORY)),
         ("cycles.csv", reference(CYCLES)),
     ] {

@@ -61,7 +61,7 @@ keys! {
     INDENTER = "indenter", Kind::Table(&indenter_block::INDENTER);
     /// The load or the approach: an oscillation about a mean.
     DRIVE = "drive", Kind::Table(&HARMONIC);
-    /// Adhesion of a sphere under a prescribed load.
+    /// Attraction of the surfaces; left out: none.
     ADHESION = "adhesion", Kind::Table(&AdhesionPlan::ROWS), optional;
     /// The frequencies, and optional further axes.
     SWEEP = "sweep", Kind::Table(&drive::SWEEP);

@@ -339,9 +339,13 @@ fn warned(warning: String) -> String {
 /// The columns of the tables that a sweep, a simulation and an analysis write.
 fn own_columns() -> Vec<String> {
     let of_records = of_records().into_iter().map(|column| column.name);
+    let names =
+        |name: &str, error: Option<String>| [Some(name.to_owned()), error].into_iter().flatten();
     let history = quantities::HISTORY.iter();
-    let history = history.flat_map(|column| [Some(column.name.to_owned()), column.error_name()]);
-    of_records.chain(history.flatten()).collect()
+    let history = history.flat_map(|column| names(column.name, column.error_name()));
+    let attracted = quantities::ATTRACTED.iter();
+    let attracted = attracted.flat_map(|column| names(column.name, column.error_name()));
+    of_records.chain(history).chain(attracted).collect()
 }
 
 /// A part in two digits, as far as a hundredth of a per cent.

@@ -165,13 +165,27 @@ impl Contact<'_> {
         } else if cycle.body.branches() == 0 {
             analysis = analysis.of_energy_loss(0.0);
         }
+        // Between samples beside a jump there is no parabola.
+        let is_jump = |k: usize| {
+            found
+                .jumps
+                .iter()
+                .any(|(step, _)| (k..=k + 1).contains(step))
+        };
         let extrema = |samples: &[f64]| {
-            let refined = Extrema::of(samples).filter(|_| is_smooth);
-            let of_samples = || Extrema {
-                minimum: samples.iter().copied().fold(f64::INFINITY, f64::min),
-                maximum: samples.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            let places = || (0..samples.len()).filter(|k| samples[*k].is_finite());
+            let least = places().min_by(|a, b| samples[*a].total_cmp(&samples[*b]));
+            let greatest = places().max_by(|a, b| samples[*a].total_cmp(&samples[*b]));
+            let (least, greatest) = (least.unwrap_or(0), greatest.unwrap_or(0));
+            let refined = Extrema::of(samples);
+            let at = |k: usize, refined: Option<f64>| match refined {
+                Some(value) if !is_jump(k) => value,
+                _ => samples[k],
             };
-            refined.unwrap_or_else(of_samples)
+            Extrema {
+                minimum: at(least, refined.map(|refined| refined.minimum)),
+                maximum: at(greatest, refined.map(|refined| refined.maximum)),
+            }
         };
         let radius_m = |samples: &[f64]| {
             let radius_m = extrema(samples);
