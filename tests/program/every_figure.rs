@@ -9,14 +9,17 @@ use std::sync::LazyLock;
 use crate::input_keys::{assert_current, is_renewed, root};
 use crate::prelude::*;
 use crate::{folders, sweep_figures};
+use contact_dma::drive::HarmonicDrive;
 use contact_dma::engine::EngineKind;
 use contact_dma::figures::paper::resolution;
+use contact_dma::indenter::Sphere;
 use contact_dma::report::chart::Drawing;
 use contact_dma::report::figure::units::Units;
 use contact_dma::report::figure::{Figure, Picture, of_sweep, pressure_map};
 use contact_dma::report::kept_figures::KeptFigures;
 use contact_dma::report::scenario;
 use contact_dma::report::scenario_tables::History;
+use contact_dma::sweep::plan::adhesion::AdhesionPlan;
 use contact_dma::sweep::plan::figures::{Colors, FigurePlan};
 use contact_dma::sweep::search::run::{self, Mode};
 use contact_dma::sweep::store::Store;
@@ -53,11 +56,26 @@ fn of_sweeps() -> Pictures {
     };
     let mut cells = few.clone();
     (cells.solver.engine, cells.solver.cells) = (EngineKind::HalfSpace, 24);
+    let attracted = |drive: HarmonicDrive, omegas: &[f64]| {
+        let mut plan = sweep_figures::pmma(omegas);
+        plan.base.contact.indenter = Arc::new(Sphere::new(1e-6).unwrap());
+        plan.base.contact.adhesion = Some(AdhesionPlan {
+            range_m: Some(1e-9),
+            ..AdhesionPlan::of_work(0.05)
+        });
+        plan.base.drive = drive.attracted_by(f64::INFINITY).unwrap();
+        (plan.cycle.steps, plan.solver.springs) = (64, 100);
+        plan
+    };
+    let load = HarmonicDrive::load(1e-7, 0.8e-7).unwrap();
+    let approach = HarmonicDrive::approach(0.0, 10e-9).unwrap();
     [
         of_sweep("sweep", few),
         of_sweep("amplitudes", at(&wide)),
         of_sweep("one frequency", at(&[0.008])),
         of_sweep("on cells", cells),
+        of_sweep("attracted", attracted(load, &wide)),
+        of_sweep("pulled off", attracted(approach, &[0.004, 0.008, 0.02])),
     ]
     .concat()
 }
