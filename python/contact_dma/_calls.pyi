@@ -146,6 +146,7 @@ def identify(
     file: str | PathLike[str] | None = None,
     branches: Literal["auto"] | int | None = None,
     approach_zero: Literal["first-contact", "unknown"] | None = None,
+    attraction: Literal["known", "work", "work-and-range"] | None = "known",
     poisson_ratio: float | None = None,
     bulk_modulus: Quantity | Mapping[str, Any] | None = None,
     control: Literal["load", "pressure", "approach"] | None = "load",
@@ -180,6 +181,7 @@ def identify(
         file: An identification file in place of all others, with `overrides`.
         branches: Branches of the series: a number, or `auto` (the default): as many as the data require. "auto", or an integer from 1 to 6.
         approach_zero: What smallest, largest and mean approaches of cycles are counted from; left out: unknown in a table of `analyse`, from first contact in any other. Where it is unknown they are not data, and the mean of a prescribed approach is that of `[drive]`. "first-contact" or "unknown".
+        attraction: What of the attraction is sought beside the material, from the values in `[adhesion]` on. "known", "work" or "work-and-range".
         poisson_ratio: Poisson ratio, constant in time. A number above -1 and at most 0.5.
         bulk_modulus: Bulk modulus in place of the Poisson ratio, which then increases as the body relaxes: constant in time, or a table with the series of a relaxing one. A stress or modulus above zero, or a table with a series.
         control: What is prescribed: the load; the mean pressure on a periodic surface (load over the area of one period); or the approach. The values below are then forces, stresses or lengths. "load", "pressure" or "approach".

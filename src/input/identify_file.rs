@@ -18,10 +18,11 @@ use super::{
 };
 use crate::drive::segments::SEGMENTS;
 use crate::identify::data::{Measurements, TableColumns};
-use crate::identify::resolved::{APPROACH_ZERO, DATA, IDENTIFY_BRANCHES};
-use crate::identify::{ApproachZero, Driven, IdentifyPlan, Sought};
+use crate::identify::resolved::{APPROACH_ZERO, ATTRACTION, DATA, IDENTIFY_BRANCHES};
+use crate::identify::{ApproachZero, Driven, IdentifyPlan, Sought, SoughtAttraction};
 use crate::indenter::Indenter;
 use crate::material::{Compressibility, Relaxation};
+use crate::sweep::plan::adhesion::AdhesionModel;
 use crate::sweep::plan::contact::ContactPlan;
 
 /// The table of results in a folder of a sweep or of an analysis.
@@ -48,7 +49,9 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<IdentifyPlan, Dia
         let drive = root.table(&MEASURED_DRIVE);
         let drive = drive.and_then(|t| driven(t, bodies.as_ref(), indenter.as_deref()));
         let measured = root.table(&IDENTIFY);
-        let measured = measured.and_then(|t| measured_block(t, drive.as_ref()));
+        let adhesion = bodies.as_ref().and_then(Bodies::adhesion);
+        let is_attracted = adhesion.is_some_and(|plan| plan.model != AdhesionModel::Dmt);
+        let measured = measured.and_then(|t| measured_block(t, drive.as_ref(), is_attracted));
         let cycle = root.table_or(&MODEL_CYCLE, IdentifyPlan::CYCLE, |t| block::read(t, None));
         let layer = bodies.as_ref().and_then(|bodies| bodies.layer);
         let default = indenter.as_deref();
@@ -73,6 +76,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<IdentifyPlan, Dia
             measurements: measured.measurements,
             data: measured.file,
             approach_zero: measured.approach_zero,
+            attraction: measured.attraction,
             columns: measured.columns,
             cycle: cycle?,
         })
@@ -128,18 +132,34 @@ struct Measured {
     measurements: Measurements,
     columns: TableColumns,
     approach_zero: Option<ApproachZero>,
+    attraction: SoughtAttraction,
     branches: Option<usize>,
 }
 
 /// The `[identify]` block: measurements, and how many branches.
-fn measured_block(mut table: TableReader<'_>, drive: Option<&Driven>) -> Option<Measured> {
+fn measured_block(
+    mut table: TableReader<'_>,
+    drive: Option<&Driven>,
+    is_attracted: bool,
+) -> Option<Measured> {
     let (folder, problems) = (table.folder(), table.problems());
     let data: Option<Located<String>> = table.read(&DATA);
     let branches = table.value(&IDENTIFY_BRANCHES);
     let approach_zero = table.value(&APPROACH_ZERO);
     let place_of_zero = table.key_location(&APPROACH_ZERO);
+    let attraction = table.value(&ATTRACTION);
+    let place_of_attraction = table.key_location(&ATTRACTION);
     table.finish();
-    let approach_zero = approach_zero?;
+    let (approach_zero, attraction) = (approach_zero?, attraction?);
+    if let (Some(place), false) = (place_of_attraction, is_attracted)
+        && attraction != SoughtAttraction::Known
+    {
+        problems
+            .at(&place, "there is no attraction within a range to look for")
+            .because("the search goes from the work and the range of [adhesion] on")
+            .help("add `[adhesion]` with `work = \"50 mJ/m^2\"` and `range = \"10 nm\"`, or leave this key out");
+        return None;
+    }
     if let (Some(place), Some(ApproachZero::Unknown), Some(Driven::History(_))) =
         (place_of_zero, approach_zero, drive)
     {
@@ -175,6 +195,7 @@ fn measured_block(mut table: TableReader<'_>, drive: Option<&Driven>) -> Option<
         measurements,
         columns,
         approach_zero,
+        attraction,
         branches: branches?,
     })
 }

@@ -89,7 +89,7 @@ fn an_elastic_sphere_that_comes_off_loses_what_its_jumps_do() {
 }
 
 /// A small oscillation about a mean load: its stiffness over that of a punch of the mean radius, and its loss over the punch's.
-fn beside_a_punch(tabor_number: f64, omega: f64, part: f64) -> (f64, f64, CaseResult) {
+fn beside_a_punch(tabor_number: f64, omega: f64, part: f64) -> (f64, f64) {
     let drive = HarmonicDrive::load(0.5 * PI_W_R, part * PI_W_R).unwrap();
     let solid = material(&[(9e6, 1.0)]);
     let compliance = solid
@@ -104,33 +104,55 @@ fn beside_a_punch(tabor_number: f64, omega: f64, part: f64) -> (f64, f64, CaseRe
     let stiffness = first.load_amplitude_n / first.approach_amplitude_m;
     let punch_j = PI * first.load_amplitude_n.powi(2) * -compliance.im / (2.0 * mean_m);
     let loss = result.loss_j() / punch_j;
-    (stiffness * compliance.norm() / (2.0 * mean_m), loss, result)
+    (stiffness * compliance.norm() / (2.0 * mean_m), loss)
 }
 
 #[test]
 fn a_fast_oscillation_is_that_of_a_flat_punch_and_a_slow_one_that_of_the_elastic_contact() {
     // What the zone yields besides vanishes with its width.
     for (tabor_number, off) in [(3.24, 2e-3), (10.0, 2e-4), (20.0, 1e-4)] {
-        let (stiffness, loss, _) = beside_a_punch(tabor_number, 100.0, 1e-3);
-        println!("{tabor_number}: {} {}", stiffness - 1.0, loss - 1.0);
+        let (stiffness, loss) = beside_a_punch(tabor_number, 100.0, 1e-3);
         below!((stiffness - 1.0).abs(), off);
         below!((loss - 1.0).abs(), off);
     }
     for (tabor_number, omega) in [(3.24, 1e-5), (10.0, 1e-6)] {
-        let (stiffness, _, result) = beside_a_punch(tabor_number, omega, 1e-2);
+        let (stiffness, _) = beside_a_punch(tabor_number, omega, 1e-2);
         let sphere = maugis(tabor_number);
         let radius_m = radius_under_m(&sphere, 0.5 * PI_W_R);
         let [below, above] = [-1e-4, 1e-4].map(|part: f64| sphere.contact((1.0 + part) * radius_m));
         let tangent = (above.load_n - below.load_n) / (above.approach_m - below.approach_m);
         let elastic = tangent / (2.0 * radius_m * RELAXED_PA);
-        println!(
-            "{tabor_number}: {stiffness} {elastic} {}",
-            result.cycle.samples.contact_radius_m[0] / radius_m
-        );
         near!(stiffness, elastic, 1e-3);
         // That of Johnson, Kendall and Roberts at this load.
         below!((elastic - 0.646).abs(), 0.03);
     }
+}
+
+/// The pull-off load (N) of an indenter that was pressed into a relaxed body by 20 nm and is pulled off by so much in this time (s), and the
+/// largest contact radius.
+fn pulled_off(indenter: Arc<dyn Indenter>, tabor_number: f64, time_s: f64) -> (f64, f64) {
+    let segments = vec![step(20e-9, 1e4), ramp(-600e-9, time_s)];
+    let drive = SegmentedDrive::attracted(Control::Approach, segments, f64::INFINITY).unwrap();
+    let mut plan = ScenarioPlan::new(material(&[(9e6, 1.0)]), indenter, drive);
+    plan.contact.adhesion = Some(attraction(tabor_number));
+    plan.output.error_bars = false;
+    let outcome = simulated(plan);
+    let radii_m = outcome.rows.iter().map(|row| row.contact_radius_m);
+    (
+        outcome.separation.unwrap().pull_n,
+        radii_m.fold(0.0, f64::max),
+    )
+}
+
+#[test]
+fn a_punch_comes_off_between_the_loads_of_kendall_at_both_ends_of_the_modulus() {
+    // Whose rim is round a little, and the contact a little smaller in the end.
+    let punch = || Arc::new(PowerLaw::new(100.0, RADIUS_M, 1e-6).unwrap());
+    let [slow, fast] = [1e5, 1e-5].map(|time_s| pulled_off(punch(), 6.0, time_s));
+    let kendall_n =
+        |modulus_pa: f64, radius_m: f64| (8.0 * PI * radius_m.powi(3) * WORK * modulus_pa).sqrt();
+    near!(slow.0, kendall_n(RELAXED_PA, slow.1), 0.1);
+    near!(fast.0, kendall_n(10.0 * RELAXED_PA, fast.1), 0.1);
 }
 
 /// Random solids under loads between half a pull-off and five times its size, or an approach about the surface.

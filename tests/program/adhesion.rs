@@ -40,7 +40,8 @@ const LOAD: &str = "mean = \"80 nN\"\namplitude = \"60 nN\"";
 const SWEEP: &str = "[sweep]\nangular_frequency = { from = \"1e-3 rad/s\", to = \"10 rad/s\", points = 5, spacing = \"log\" }\n[cycle]\nsteps = 64\n[solver]\nsprings = 100\n";
 
 #[test]
-fn a_sweep_of_an_attracted_sphere_tells_the_parts_of_its_loss_and_its_solid_is_found_from_it() {
+fn a_sweep_of_an_attracted_sphere_tells_the_parts_of_its_loss_and_solid_and_attraction_are_found_from_it()
+ {
     let place = Place::new();
     place.put("load.toml", attracted(LOAD, SWEEP));
     place.done("sweep load.toml --quiet --out swept");
@@ -67,9 +68,15 @@ fn a_sweep_of_an_attracted_sphere_tells_the_parts_of_its_loss_and_its_solid_is_f
     let drawn = place.bytes("swept/figures/loss-parts.svg");
     place.done("report swept --quiet");
     assert_eq!(place.bytes("swept/figures/loss-parts.svg"), drawn);
-    let known = attracted(LOAD, "[identify]\ndata = \"swept\"\nbranches = 1\n");
+    let known = attracted(
+        LOAD,
+        "[identify]\ndata = \"swept\"\nbranches = 1\nattraction = \"work-and-range\"\n",
+    );
     let solid = known.find("[material.zener]").unwrap()..known.find("[indenter]").unwrap();
-    place.put("identify.toml", known.replace(&known[solid], ""));
+    // From another attraction on.
+    let guessed = known.replace(&known[solid], "");
+    let guessed = guessed.replace("50 mJ", "40 mJ").replace("40 nm", "50 nm");
+    place.put("identify.toml", guessed);
     place.done("identify identify.toml --quiet --out found");
     let found = place.json("found/summary.json");
     let unknown = |name: &str| {
@@ -78,7 +85,13 @@ fn a_sweep_of_an_attracted_sphere_tells_the_parts_of_its_loss_and_its_solid_is_f
         one.unwrap()["value"].as_f64().unwrap()
     };
     // Shear moduli of 10 and 1 MPa, and the time of relaxation.
-    for (name, expected) in [("g_inf", 3e6), ("g_1", 27e6), ("tau_1", 1.0)] {
+    for (name, expected) in [
+        ("g_inf", 3e6),
+        ("g_1", 27e6),
+        ("tau_1", 1.0),
+        ("work", 0.05),
+        ("range", 40e-9),
+    ] {
         let off = unknown(name) / expected - 1.0;
         assert!(off.abs() < 0.01, "{name}: {off}");
     }

@@ -46,6 +46,8 @@ pub struct Springs<'a> {
     held_sum: Vec<f64>,
     at_edges: [f64; 3],
     pub(super) scratch: [Vec<f64>; 2],
+    /// Room for what springs at the zone's edge and at the contact's come to in a step.
+    next_edges: [Vec<f64>; 3],
     /// When, in seconds of its march, each spring came into contact or left it: in turn, beginning out of contact.
     pub(super) changes_s: Vec<Vec<f64>>,
     pub(super) time_s: f64,
@@ -100,6 +102,7 @@ impl<'a> Springs<'a> {
             held_sum: vec![0.0; springs],
             at_edges: [0.0; 3],
             scratch: [empty(), empty()],
+            next_edges: [empty(), empty(), empty()],
             changes_s: vec![Vec::new(); springs],
             time_s: 0.0,
             search: super::instant::Start::default(),
@@ -366,10 +369,10 @@ impl<'a> Springs<'a> {
     /// Last part of a step: the springs go through it.
     pub(super) fn end(&mut self, weights: &StepWeights, to: Edges) {
         let now = self.now;
-        let branches = self.body.branches();
         let gap_m = self.profile.transformed_gap_m(to.contact_m);
         let [mut new, mut own] = std::mem::take(&mut self.scratch);
-        let mut at_zone = vec![0.0; branches];
+        let [mut at_zone, mut at_contact_m, mut at_contact] = std::mem::take(&mut self.next_edges);
+        at_zone.fill(0.0);
         match to.zone_m < now.contact_m {
             true => {
                 self.displacements_at(to.zone_m, &mut own);
@@ -380,8 +383,9 @@ impl<'a> Springs<'a> {
                 self.load_along(weights, to.zone_m, to.zone_m, &mut at_zone);
             }
         }
-        let mut at_contact = [vec![0.0; branches], vec![0.0; branches]];
-        let [displacements_m, forces] = &mut at_contact;
+        at_contact_m.fill(0.0);
+        at_contact.fill(0.0);
+        let (displacements_m, forces) = (&mut at_contact_m, &mut at_contact);
         if to.contact_m > 0.0 && to.contact_m < now.contact_m {
             self.displacements_at(to.contact_m, displacements_m);
             for (e, w) in displacements_m.iter_mut().zip(&weights.displaced) {
@@ -422,7 +426,10 @@ impl<'a> Springs<'a> {
             self.memory[range].copy_from_slice(&new);
         }
         self.scratch = [new, own];
-        (self.at_contact, self.at_zone) = (at_contact, at_zone);
+        let [before_m, before] =
+            std::mem::replace(&mut self.at_contact, [at_contact_m, at_contact]);
+        let zone_before = std::mem::replace(&mut self.at_zone, at_zone);
+        self.next_edges = [zone_before, before_m, before];
         self.inside = inside;
         self.time_s += weights.step_s;
         self.now = to;

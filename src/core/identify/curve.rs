@@ -30,6 +30,9 @@ pub fn curves(
     found: &Identified,
     interrupt: &AtomicBool,
 ) -> Result<Vec<Curve>, IdentifyError> {
+    let mut plan = plan.clone();
+    plan.contact.adhesion = found.adhesion.or(plan.contact.adhesion);
+    let plan = &plan;
     if let Driven::History(drive) = &plan.drive {
         return Ok(vec![of_history(plan, drive, found, interrupt)?]);
     }

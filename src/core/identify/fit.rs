@@ -11,12 +11,12 @@ use crate::identify::model::Model;
 use crate::identify::noise::Knowledge;
 use crate::identify::selection::Linearised;
 use crate::identify::series::Point;
-use crate::identify::{IdentifyError, IdentifyPlan, MOST_BRANCHES};
+use crate::identify::{IdentifyError, IdentifyPlan, MOST_BRANCHES, SoughtAttraction, adhesion};
 use crate::material::Relaxation;
 use crate::numerics::levenberg_marquardt::{Ending, Problem, minimise};
 
 /// Step of an unknown for derivatives of the exact model: wide beside what springs and steps leave of roughness in it.
-const STEP: f64 = 0.02;
+pub(super) const STEP: f64 = 0.02;
 
 /// Which part of a change of the factors is made where all of it did not lead to a solid.
 const PARTS: [f64; 2] = [0.5, 0.25];
@@ -28,7 +28,7 @@ const SEEN: f64 = 0.1;
 const ROUNDS: usize = 8;
 const SETTLED: f64 = 1e-3;
 
-const EXACTLY: Ending = Ending {
+pub(super) const EXACTLY: Ending = Ending {
     iterations: 12,
     enough: 1e-4,
 };
@@ -43,6 +43,9 @@ const TIMES_ERRORS: f64 = 5.0;
 /// # Errors
 /// [`IdentifyError`]: too few numbers, cycles that are not found, numbers that no solid has together.
 pub fn identify(plan: &IdentifyPlan, interrupt: &AtomicBool) -> Result<Identified, IdentifyError> {
+    if plan.attraction != SoughtAttraction::Known {
+        return adhesion::identify(plan, interrupt);
+    }
     let most = most_branches(plan)?;
     let mut model = Model::new(plan, interrupt);
     let mut linearised = Linearised::new(plan)?;
@@ -139,11 +142,18 @@ fn on_exact(
     let derivatives = derivatives.ok_or(IdentifyError::NoFit(
         "the exact model has no derivatives there",
     ))?;
-    judged(model, linearised, candidates, start, found, &derivatives)
+    judged(
+        model,
+        linearised,
+        candidates,
+        start,
+        found,
+        (&derivatives, &[]),
+    )
 }
 
 /// How many branches the number of data allows.
-fn most_branches(plan: &IdentifyPlan) -> Result<usize, IdentifyError> {
+pub(super) fn most_branches(plan: &IdentifyPlan) -> Result<usize, IdentifyError> {
     let numbers = plan.measurements.data().len();
     // As many unknowns, and one number over.
     let needed = |branches: usize| 2 * branches + 2;
@@ -162,7 +172,7 @@ fn most_branches(plan: &IdentifyPlan) -> Result<usize, IdentifyError> {
 }
 
 /// Searches with factors from the exact model until they stand still; which candidate the data ask for.
-fn on_linearised(
+pub(super) fn on_linearised(
     model: &Model<'_>,
     linearised: &mut Linearised<'_>,
     most: usize,
@@ -200,13 +210,13 @@ fn on_linearised(
 }
 
 /// The exact model as a least squares problem.
-struct Exact<'a> {
-    model: &'a Model<'a>,
-    linearised: &'a Linearised<'a>,
+pub(super) struct Exact<'a> {
+    pub(super) model: &'a Model<'a>,
+    pub(super) linearised: &'a Linearised<'a>,
 }
 
 impl Exact<'_> {
-    fn scaled(&self, numbers: &[f64], point: &Point) -> Option<DVector<f64>> {
+    pub(super) fn scaled(&self, numbers: &[f64], point: &Point) -> Option<DVector<f64>> {
         let data = self.linearised.plan.measurements.data().iter().zip(numbers);
         let relative = data.map(|(d, number)| (number.max(1e-6 * d.value) / d.value).ln());
         self.linearised.weighed(relative, point)
@@ -241,7 +251,10 @@ impl Problem for Exact<'_> {
 }
 
 /// Refuses what no solid explains.
-fn refuse_contradiction(plan: &IdentifyPlan, found: &Identified) -> Result<(), IdentifyError> {
+pub(super) fn refuse_contradiction(
+    plan: &IdentifyPlan,
+    found: &Identified,
+) -> Result<(), IdentifyError> {
     let within =
         found.knowledge == Knowledge::All && found.reduced_chi_squared.sqrt() < TIMES_ERRORS;
     match contradiction(plan, found.relaxation.branches().len(), &found.missed()) {

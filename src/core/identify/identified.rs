@@ -12,6 +12,10 @@ use crate::identify::uncertainty::{Directions, moduli};
 use crate::identify::{IdentifyError, UNDETERMINED};
 use crate::material::Relaxation;
 use crate::numerics::levenberg_marquardt::Solution;
+use crate::sweep::plan::adhesion::AdhesionPlan;
+
+/// The unknowns of an attraction.
+const ATTRACTION: [&str; 2] = ["work", "range"];
 
 /// The largest exponent of a confidence factor that is written as a number.
 const WIDEST: f64 = 60.0;
@@ -19,9 +23,9 @@ const WIDEST: f64 = 60.0;
 /// An unknown with its 95 % interval.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unknown {
-    /// `g_inf`, `g_1`, `tau_1` and so on.
+    /// `g_inf`, `g_1`, `tau_1` and so on; `work` and `range` of an attraction.
     pub name: String,
-    /// Pa or s.
+    /// Pa, s, J/m^2 or m.
     pub value: f64,
     /// The interval goes from `value / factor` to `value * factor`.
     pub factor: f64,
@@ -103,6 +107,8 @@ pub struct Identified {
     pub window_rad_per_s: (f64, f64),
     /// Of a contact on cells; `None` on springs.
     pub cell_error: Option<CellError>,
+    /// The attraction that was found beside the series, where it was sought.
+    pub adhesion: Option<AdhesionPlan>,
     pub(super) point: Point,
     directions: Directions,
     half_width: f64,
@@ -110,18 +116,24 @@ pub struct Identified {
     pub(super) linearised: Point,
 }
 
-/// The result with all that is known of it.
+/// The result with all that is known of it; behind the unknowns of the series, the derivatives are by those of the attraction, where that is
+/// sought.
 pub(super) fn judged(
     model: &Model<'_>,
     linearised: &Linearised<'_>,
     candidates: Vec<Candidate>,
     start: Point,
     found: Solution<Point>,
-    derivatives: &DMatrix<f64>,
+    (derivatives, attraction): (&DMatrix<f64>, &[f64]),
 ) -> Result<Identified, IdentifyError> {
     let measured = &linearised.plan.measurements;
     let point = found.unknowns.clone();
-    let degrees_of_freedom = measured.data().len().saturating_sub(point.0.len());
+    let names: Vec<String> = (0..point.0.len())
+        .map(name)
+        .chain(ATTRACTION.map(str::to_owned))
+        .collect();
+    let count = point.0.len() + attraction.len();
+    let degrees_of_freedom = measured.data().len().saturating_sub(count);
     let noise = &linearised.noise;
     let scatter = noise.scatter(&found.residuals, degrees_of_freedom);
     let half_width = scatter.half_width;
@@ -137,13 +149,13 @@ pub(super) fn judged(
     let covariance = directions.covariance();
     let deviation = |k: usize| covariance[(k, k)].sqrt();
     let factor = |deviation: f64| (half_width * deviation).min(WIDEST).exp();
-    let unknowns = point.0.iter().enumerate().map(|(k, ln)| Unknown {
-        name: name(k),
+    let all = point.0.iter().chain(attraction).enumerate();
+    let unknowns = all.map(|(k, ln)| Unknown {
+        name: names[k].clone(),
         value: ln.exp(),
         factor: factor(deviation(k)),
         is_determined: factor(deviation(k)) < UNDETERMINED,
     });
-    let count = point.0.len();
     let correlation = |i: usize, j: usize| covariance[(i, j)] / (deviation(i) * deviation(j));
     let compared = measured.data().iter().enumerate().map(|(k, datum)| {
         let error = linearised.noise.relative[k];
@@ -167,7 +179,7 @@ pub(super) fn judged(
             .map(|i| (0..count).map(|j| correlation(i, j)).collect())
             .collect(),
         singular_values: directions.singular_values.clone(),
-        undetermined: undetermined(&directions, half_width),
+        undetermined: undetermined(&directions, half_width, &names),
         candidates,
         compared: compared.collect(),
         knowledge: noise.knowledge,
@@ -176,6 +188,7 @@ pub(super) fn judged(
         inflation: scatter.deviation / scatter.of_data,
         window_rad_per_s: measured.window_rad_per_s(),
         cell_error,
+        adhesion: None,
         point,
         directions,
         half_width,
@@ -184,7 +197,7 @@ pub(super) fn judged(
 }
 
 /// Directions along which the unknowns may move by more than the factor that counts as determined.
-fn undetermined(directions: &Directions, half_width: f64) -> Vec<Undetermined> {
+fn undetermined(directions: &Directions, half_width: f64, names: &[String]) -> Vec<Undetermined> {
     let all = directions.deviations.iter().enumerate();
     let open = all.filter(|(_, deviation)| half_width * **deviation > UNDETERMINED.ln());
     open.map(|(place, deviation)| {
@@ -192,7 +205,10 @@ fn undetermined(directions: &Directions, half_width: f64) -> Vec<Undetermined> {
         let larger = |a: f64, v: &f64| if v.abs() > a.abs() { *v } else { a };
         let largest = row.iter().fold(0.0, larger);
         // The largest power is one; what hardly takes part is left out.
-        let powers = row.iter().enumerate().map(|(k, v)| (name(k), v / largest));
+        let powers = row
+            .iter()
+            .enumerate()
+            .map(|(k, v)| (names[k].clone(), v / largest));
         let mut parts: Vec<(String, f64)> = powers.filter(|(_, power)| power.abs() > 0.2).collect();
         parts.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
         Undetermined {

@@ -43,6 +43,7 @@
 //! Inference*, Springer 2002, section 4.3). Combinations of the unknowns along which they may move by more than a factor of two
 //! are named as not determined: singular vectors of the matrix of derivatives.
 
+mod adhesion;
 mod candidate;
 mod curve;
 pub mod data;
@@ -95,6 +96,15 @@ words! {
     }
 }
 
+words! {
+    /// What of the attraction of the surfaces is sought beside the material, from the values of `[adhesion]` on.
+    pub enum SoughtAttraction {
+        Known = "known",
+        Work = "work",
+        WorkAndRange = "work-and-range",
+    }
+}
+
 /// Everything that an identification needs to know.
 #[derive(Debug, Clone)]
 pub struct IdentifyPlan {
@@ -109,6 +119,7 @@ pub struct IdentifyPlan {
     pub data: String,
     /// What the approaches of that file are counted from, where it was asked for.
     pub approach_zero: Option<ApproachZero>,
+    pub attraction: SoughtAttraction,
     /// What became of its columns.
     pub columns: TableColumns,
     pub cycle: CyclePlan,
@@ -166,9 +177,40 @@ impl IdentifyPlan {
             measurements,
             data: String::new(),
             approach_zero: None,
+            attraction: SoughtAttraction::Known,
             columns: TableColumns::default(),
             cycle: Self::CYCLE,
         }
+    }
+
+    /// Logarithms of what is sought of the attraction (J/m^2, m), as the plan has it.
+    pub(crate) fn sought_attraction(&self) -> Vec<f64> {
+        let adhesion = self.contact.adhesion;
+        let all = adhesion.map_or([0.0; 2], |adhesion| {
+            [adhesion.work_j_per_m2, adhesion.range_m()].map(f64::ln)
+        });
+        let count = match self.attraction {
+            SoughtAttraction::Known => 0,
+            SoughtAttraction::Work => 1,
+            SoughtAttraction::WorkAndRange => 2,
+        };
+        all[..count].to_vec()
+    }
+
+    /// The same plan with another attraction of these logarithms, as many as are sought.
+    pub(crate) fn attracted_by(&self, logarithms: &[f64]) -> Self {
+        let mut plan = self.clone();
+        if let Some(adhesion) = &mut plan.contact.adhesion {
+            let range_m = adhesion.range_m();
+            (adhesion.range_m, adhesion.stress_pa) = (Some(range_m), None);
+            for (place, ln) in logarithms.iter().enumerate() {
+                match place {
+                    0 => adhesion.work_j_per_m2 = ln.exp(),
+                    _ => adhesion.range_m = Some(ln.exp()),
+                }
+            }
+        }
+        plan
     }
 
     /// The solver where nothing is asked for.

@@ -19,7 +19,7 @@ pub(super) struct Model<'a> {
     plan: &'a IdentifyPlan,
     interrupt: &'a AtomicBool,
     /// What every number is multiplied by for the error of its resolution; none before that is known.
-    corrections: Vec<f64>,
+    pub(super) corrections: Vec<f64>,
 }
 
 impl<'a> Model<'a> {

@@ -1,6 +1,6 @@
 //! The resolved identification: every default written out, as a file that gives the same plan again.
 
-use crate::identify::{ApproachZero, Driven, IdentifyPlan, MOST_BRANCHES};
+use crate::identify::{ApproachZero, Driven, IdentifyPlan, MOST_BRANCHES, SoughtAttraction};
 use crate::keys;
 use crate::quantity::block::Block as _;
 use crate::quantity::key::Kind;
@@ -17,12 +17,14 @@ keys! {
     /// What smallest, largest and mean approaches of cycles are counted from; left out: unknown in a table of `analyse`, from first contact
     /// in any other. Where it is unknown they are not data, and the mean of a prescribed approach is that of `[drive]`.
     APPROACH_ZERO = "approach_zero", Kind::Word(ApproachZero::WORDS), optional;
+    /// What of the attraction is sought beside the material, from the values in `[adhesion]` on.
+    ATTRACTION = "attraction", Kind::Word(SoughtAttraction::WORDS), or SoughtAttraction::Known;
 }
 
 /// The `[identify]` block.
 pub static IDENTIFY_TABLE: Rows = table(
     " What was measured.",
-    &[&[DATA, IDENTIFY_BRANCHES, APPROACH_ZERO]],
+    &[&[DATA, IDENTIFY_BRANCHES, APPROACH_ZERO, ATTRACTION]],
 );
 
 /// The plan as the text of an identification file.
@@ -39,6 +41,10 @@ pub fn resolved_text(plan: &IdentifyPlan) -> String {
         .and(DATA.setting(plan.data.clone()))
         .and(IDENTIFY_BRANCHES.setting(plan.branches.map_or("auto".into(), Value::from)))
         .and(APPROACH_ZERO.setting(plan.approach_zero));
+    let identify = match plan.attraction {
+        SoughtAttraction::Known => identify,
+        sought => identify.and(ATTRACTION.setting(sought)),
+    };
     let solver = plan.solver.table_for(plan.contact.indenter.as_ref());
     let blocks = [
         material.toml(),

@@ -76,10 +76,14 @@ impl Directions {
 
     /// Variance of a quantity with this gradient.
     pub(super) fn variance(&self, gradient: &DVector<f64>) -> f64 {
-        let along = &self.vectors * gradient;
+        // A gradient by the first unknowns alone.
+        let gradient = gradient
+            .clone()
+            .resize_vertically(self.vectors.ncols(), 0.0);
+        let along = &self.vectors * &gradient;
         let of_noise = along.iter().zip(&self.deviations);
         let of_noise: f64 = of_noise.map(|(a, d)| (a * d).powi(2)).sum();
-        let common = self.shift.as_ref().map_or(0.0, |s| s.dot(gradient));
+        let common = self.shift.as_ref().map_or(0.0, |s| s.dot(&gradient));
         of_noise + common * common
     }
 }

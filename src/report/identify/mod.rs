@@ -359,11 +359,13 @@ fn percent(part: f64) -> String {
     format!("{percent:.decimals$} %")
 }
 
-/// Pa for moduli, s for times.
+/// Pa for moduli, s for times, J/m^2 and m of an attraction.
 pub fn dimension(unknown: &Unknown) -> Dimension {
-    match unknown.name.starts_with("tau") {
-        true => Dimension::Time,
-        false => Dimension::Stress,
+    match &unknown.name[..] {
+        "work" => Dimension::EnergyPerArea,
+        "range" => Dimension::Length,
+        name if name.starts_with("tau") => Dimension::Time,
+        _ => Dimension::Stress,
     }
 }
 

@@ -36,13 +36,15 @@ impl Contact<'_> {
         adhesion.attraction(contact.indenter.as_ref(), self.solid.relaxed_per_pa)
     }
 
-    /// The stabilised cycles on this many springs, in the most steps and in fewer before it, each searched from the last.
+    /// The stabilised cycles on this many springs, in the most steps and in fewer before it, each searched from the last, the first from
+    /// what was left before; and what is left of the last.
     pub(super) fn attracted(
         &self,
         attraction: Attraction,
         springs: usize,
         (fewer, steps): (&[usize], usize),
-    ) -> Result<Level, CaseError> {
+        before: Option<(Layout, State)>,
+    ) -> Result<(Level, Option<(Layout, State)>), CaseError> {
         let drive = &self.condition.drive;
         let of_drive = |value| prescribed(drive.control(), value);
         let body = Body::new(self.compliance, self.period_s()).map_err(super::SetupError::from)?;
@@ -55,8 +57,13 @@ impl Contact<'_> {
             maximum: of_drive(drive.maximum()),
             period_s: self.period_s(),
         };
-        let layout = cycle.layout(&|| self.interrupt.load(Ordering::Relaxed))?;
-        let mut state = None;
+        let (layout, mut state) = match before {
+            Some((layout, state)) => (layout, Some(state)),
+            None => (
+                cycle.layout(&|| self.interrupt.load(Ordering::Relaxed))?,
+                None,
+            ),
+        };
         let mut coarser = Vec::new();
         for &count in fewer {
             match self.attracted_in(&cycle, &layout, (count, springs), state.as_ref()) {
@@ -68,8 +75,10 @@ impl Contact<'_> {
                 Err(error) => return Err(error),
             }
         }
-        let (finest, _) = self.attracted_in(&cycle, &layout, (steps, springs), state.as_ref())?;
-        Ok(Level::new(springs, (steps, finest), coarser))
+        let (finest, left) =
+            self.attracted_in(&cycle, &layout, (steps, springs), state.as_ref())?;
+        let level = Level::new(springs, (steps, finest), coarser);
+        Ok((level, Some((layout, left))))
     }
 
     fn attracted_in(
@@ -103,7 +112,10 @@ impl Contact<'_> {
                 let is_near = |found: &Found| found.distance <= NEAR.max(tolerance);
                 if !searched.as_ref().is_ok_and(is_near) {
                     let again = within(Start::Rest, tolerance, (2 * SEARCH_CYCLES).min(most));
-                    searched = again.or(searched);
+                    searched = match (again, searched) {
+                        (Ok(again), Ok(first)) if first.distance < again.distance => Ok(first),
+                        (again, first) => again.or(first),
+                    };
                 }
                 match searched {
                     Ok(found) if found.distance <= tolerance.max(SETTLED) => {

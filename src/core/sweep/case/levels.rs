@@ -1,7 +1,10 @@
 //! A case at its resolution, and at coarser ones that tell its errors: in steps on the same nodes, and on fewer nodes.
 
+use std::cell::RefCell;
 use std::sync::Arc;
 
+use crate::adhesive::Layout;
+use crate::adhesive::cycle::State;
 use crate::contact::{ContactError, Engine};
 use crate::engine::MAX_GROWTHS;
 use crate::engine::{EngineKind, instant_tolerance};
@@ -25,6 +28,8 @@ pub(super) struct Levels<'a> {
     pub setup: &'a Setup,
     pub contact: Contact<'a>,
     pub effort: &'a mut Effort,
+    /// Where the edges of an attracted contact go, and what its springs remembered last: other numbers of springs begin there.
+    pub attracted: RefCell<Option<(Layout, State)>>,
 }
 
 /// What a case has taken so far, whatever becomes of it.
@@ -296,7 +301,13 @@ impl Levels<'_> {
         domain: &mut (f64, usize),
     ) -> Result<Level, CaseError> {
         if let Some(attraction) = contact.attraction() {
-            return contact.attracted(attraction, nodes, (fewer, steps));
+            let is_own = std::ptr::eq(contact.compliance, &raw const contact.solid.compliance);
+            let before = is_own.then(|| self.attracted.take()).flatten();
+            let (level, left) = contact.attracted(attraction, nodes, (fewer, steps), before)?;
+            if is_own {
+                self.attracted.replace(left);
+            }
+            return Ok(level);
         }
         let engines = self.setup.engines_of_case(contact, nodes)?;
         let mut growths = 0;

@@ -15,6 +15,7 @@ mod solid;
 mod stabilise;
 mod tangent_radius;
 
+use std::cell::RefCell;
 use std::collections::HashMap;
 use std::hash::{Hash, Hasher};
 use std::sync::atomic::AtomicBool;
@@ -364,6 +365,7 @@ impl Setup {
             setup: self,
             contact,
             effort,
+            attracted: RefCell::default(),
         };
         let mut found = match cycle.accuracy {
             Some(accuracy) => levels.within_accuracy(accuracy)?,
