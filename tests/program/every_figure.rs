@@ -75,7 +75,7 @@ fn of_sweeps() -> Pictures {
         of_sweep("one frequency", at(&[0.008])),
         of_sweep("on cells", cells),
         of_sweep("attracted", attracted(load, &wide)),
-        of_sweep("pulled off", attracted(approach, &[0.004, 0.008, 0.02])),
+        of_sweep("pulled off", attracted(approach, &[0.004, 0.02])),
     ]
     .concat()
 }

@@ -3,12 +3,29 @@
 use super::springs::{Edges, Springs};
 use super::weights::{StepWeights, Straight};
 
+/// From the front, in ways that it moves in the step: beyond, the force of a spring goes straight in time but for 1e-5 of it.
+const FAR: f64 = 32.0;
+
 impl Springs<'_> {
+    /// The forces (N/m) of a spring at the beginning and at the end of the step, where it is so far from the front that they go straight.
+    fn straight(&self, x_m: f64, zone_m: f64) -> Option<(f64, f64)> {
+        let from_m = self.now.zone_m;
+        let is_far = from_m.min(zone_m) - x_m > FAR * (zone_m - from_m).abs();
+        is_far.then(|| {
+            let at = |zone_m| self.attraction.force(x_m, zone_m);
+            (at(from_m), at(zone_m))
+        })
+    }
+
     /// What the force within the step adds to the displacement (m) of a spring that is attracted all the while, beside the
     /// instantaneous one.
     pub(super) fn along_m(&self, weights: &StepWeights, x_m: f64, zone_m: f64) -> f64 {
         if weights.step_s == 0.0 || self.now.zone_m.max(zone_m) <= x_m {
             return 0.0;
+        }
+        if let Some((from, to)) = self.straight(x_m, zone_m) {
+            let (old_per_pa, new_per_pa) = weights.straight_per_pa;
+            return old_per_pa * from + new_per_pa * to;
         }
         let way_m = (self.now.zone_m, zone_m);
         let means = self.attraction.mean_forces(x_m, way_m, &weights.ends);
@@ -24,6 +41,12 @@ impl Springs<'_> {
         zone_m: f64,
         forces: &mut [f64],
     ) {
+        if weights.step_s > 0.0
+            && let Some(ends) = self.straight(x_m, zone_m)
+        {
+            let branches = forces.iter_mut().zip(&weights.loaded);
+            return branches.for_each(|(force, weights)| weights.drive(force, ends));
+        }
         for (force, left) in forces.iter_mut().zip(&weights.left) {
             *force *= left;
         }

@@ -47,6 +47,10 @@ pub struct StepWeights {
     pub(super) added: Vec<Vec<f64>>,
     /// What the mean force over each part adds to the displacement (1/Pa).
     pub(super) compliance_per_pa: Vec<f64>,
+    /// Of every branch of creep under a force that goes straight, and what such a force at the beginning and at the end of the step adds
+    /// to the displacement (1/Pa).
+    pub(super) loaded: Vec<Straight>,
+    pub(super) straight_per_pa: (f64, f64),
     /// Where the parts end, as fractions of the step.
     pub(super) ends: Vec<f64>,
 }
@@ -84,13 +88,20 @@ impl StepWeights {
             times().map(adds).collect::<Vec<f64>>()
         });
         let added: Vec<Vec<f64>> = added.collect();
+        let loaded: Vec<Straight> = times().map(Straight::over).collect();
+        let adds = |of: fn(&Straight) -> f64| -> f64 {
+            let branches = body.compliances_per_pa.iter().zip(&loaded);
+            branches.map(|(per_pa, weights)| per_pa * of(weights)).sum()
+        };
         Self {
+            straight_per_pa: (adds(|w| w.old), adds(|w| w.new)),
             step_s,
             modulus_pa: body.equilibrium_modulus_pa + stiff.sum::<f64>(),
             displaced,
             left: times().map(|times| (-times).exp()).collect(),
             compliance_per_pa: added.iter().map(|added| body.retarded_m(added)).collect(),
             added,
+            loaded,
             ends,
         }
     }

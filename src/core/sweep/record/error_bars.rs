@@ -78,9 +78,11 @@ impl InNodes {
         cells: None,
     };
 
-    /// On springs through which attracted edges move: each that an edge reaches within a step is a kink.
+    /// On springs through which attracted edges move: each that an edge reaches within a step is a kink. The factor is from random solids
+    /// (`tests/physics/attracted.rs`).
     pub const ATTRACTED: Self = Self {
         order: 1.0,
+        safety: (2.0, 2.0),
         ..Self::SPRINGS
     };
 
