@@ -144,7 +144,7 @@ function start(data) {
     plot($("radius"), { label: "Contact radius over the cycle", x: ofPeriod, y: { label: "contact radius a", name: "a", unit: "m" }, series: [{ name: "contact radius", x: part, y: cycle.contact_radius_m, colour: 2 }] });
     plot($("pressure"), {
       label: "Peak pressure over the cycle", x: ofPeriod, y: { label: "peak pressure", name: "p", unit: "Pa" },
-      series: [{ name: "peak pressure", x: part, y: cycle.peak_pressure_pa, colour: 3 }], none: "unbounded: the indenter has an apex or a sharp edge",
+      series: [{ name: "peak pressure", x: part, y: cycle.peak_pressure_pa, colour: 3 }], none: "not told: unbounded under an apex or a sharp edge, and not computed of surfaces that attract",
     });
     const relative = (k) => cycle.harmonics.map((h) => (cycle.harmonics[0][k] > 0 ? h[k] / cycle.harmonics[0][k] : null)).slice(1);
     const orders = cycle.harmonics.map((_, n) => n + 1).slice(1);
@@ -189,14 +189,14 @@ function start(data) {
     const across = pressure.lines.find((line) => line.along === "y");
     const line = pressure.lines.find((line) => line !== across);
     if (line) drawPressure("profile", line, pressure.instants, period);
-    else plot($("profile"), { label: "Contact pressure", x: {}, y: {}, series: [], none: "no pressure is recorded" });
+    else plot($("profile"), { label: "Contact pressure", x: {}, y: {}, series: [], none: "no pressure was computed" });
     $("profile-y-part").hidden = !across;
     if (across) drawPressure("profile-y", across, pressure.instants, period);
     const along = work.along === "r" ? "distance from the axis r" : "position x";
     plot($("work"), {
       label: `Work of the indenter on the surface per area and cycle, ${work.line}`,
       x: { label: along, name: work.along, unit: "m" }, y: { label: "work density", unit: "J/m²", zero: true },
-      series: [{ name: "work density", x: work.position_m, y: work.density_j_per_m2, colour: 1 }], none: "no work is done",
+      series: [{ name: "work density", x: work.position_m, y: work.density_j_per_m2, colour: 1 }], none: "no work was done, or none computed",
     });
     const through = line && line.along === "x" ? ", on the cells along the axes through the centre" : "";
     $("lines-how").textContent = `Pressure: at the time steps nearest to the quarters of the oscillation${through}. Work density: ${work.line}.`;
