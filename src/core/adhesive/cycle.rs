@@ -51,13 +51,16 @@ pub enum Start<'a> {
     March { hold_s: f64, held: Prescribed },
 }
 
+/// A step in which the contact jumped, and the energy (J) that this lost.
+pub type Jumped = (usize, f64);
+
 /// The cycle of a search that is nearest to the stabilised one, or the last of a march.
 #[derive(Debug, Clone)]
 pub struct Found {
     /// The edges at the beginning and at the end of every step.
     pub edges: Vec<Edges>,
     /// Steps, counted from 1, in which the contact jumped, and the energy (J) that each jump lost.
-    pub jumps: Vec<(usize, f64)>,
+    pub jumps: Vec<Jumped>,
     /// How far it is from the stabilised one.
     pub distance: f64,
     pub cycles: usize,
@@ -266,19 +269,27 @@ impl<'a> Cycle<'a> {
         let keeps_load = matches!(self.mean, Prescribed::LoadN(_));
         let mut cycles = 0;
         let mut best = None;
+        let mut tried = state.clone();
+        let is_march = matches!(start, Start::March { .. });
         loop {
             springs.recall(&state);
-            let mut edges = vec![springs.step(&jump, (self.drive)(0.0))?];
-            springs.begin_cycle();
-            let begun = springs.state();
-            let mut jumps = Vec::new();
-            for step in 1..=steps {
-                if (ending.stop)() {
-                    return Err(ContactError::Interrupted);
-                }
-                edges.push(springs.step(&weights, (self.drive)(step as f64 / steps as f64))?);
-                jumps.extend(springs.jumped_j().map(|lost_j| (step, lost_j)));
-            }
+            let (edges, jumps, begun) =
+                match self.once(&mut springs, (&jump, &weights), steps, ending.stop) {
+                    // What a search tries may be no memory that loads leave: half as far from the last that had a cycle.
+                    Err(ContactError::PulledOff { .. }) if !is_march && best.is_some() => {
+                        cycles += 1;
+                        if cycles >= ending.most_cycles
+                            && let Some(best) = best
+                        {
+                            return Ok(Found { cycles, ..best });
+                        }
+                        anderson = Anderson::default();
+                        state = state.between(&tried);
+                        continue;
+                    }
+                    ended => ended?,
+                };
+            tried = begun.clone();
             cycles += 1;
             let end = springs.state();
             let distance = last.as_ref().map_or(f64::INFINITY, |last| {
@@ -291,7 +302,6 @@ impl<'a> Cycle<'a> {
                 cycles,
                 state: end.clone(),
             };
-            let is_march = matches!(start, Start::March { .. });
             if is_march
                 || best
                     .as_ref()
@@ -316,14 +326,31 @@ impl<'a> Cycle<'a> {
             }
             springs.correct(self.period_s, keeps_load, &mut update);
             let mut next = begun.displacements_m[..of_springs].to_vec();
-            if cycles < std::env::var("AND").map_or(1000, |v| v.parse().unwrap()) {
-                anderson.advance(&mut next, &update, &least_squares);
-            } else {
-                let th: f64 = std::env::var("TH").map_or(0.5, |v| v.parse().unwrap());
-                next.iter_mut().zip(&update).for_each(|(n, u)| *n += th * u);
-            }
+            anderson.advance(&mut next, &update, &least_squares);
             state = end.moved_to(&next, self.body.branches());
         }
+    }
+
+    /// One cycle from where the springs are: its edges, its jumps, and the memory at its beginning.
+    fn once(
+        &self,
+        springs: &mut Springs<'_>,
+        (jump, weights): (&StepWeights, &StepWeights),
+        steps: usize,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<(Vec<Edges>, Vec<Jumped>, State), ContactError> {
+        let mut edges = vec![springs.step(jump, (self.drive)(0.0))?];
+        springs.begin_cycle();
+        let begun = springs.state();
+        let mut jumps = Vec::new();
+        for step in 1..=steps {
+            if stop() {
+                return Err(ContactError::Interrupted);
+            }
+            edges.push(springs.step(weights, (self.drive)(step as f64 / steps as f64))?);
+            jumps.extend(springs.jumped_j().map(|lost_j| (step, lost_j)));
+        }
+        Ok((edges, jumps, begun))
     }
 
     /// Holds a value in steps that grow, from a thousandth of the shortest time of the body on or of the time itself.
@@ -411,6 +438,15 @@ impl State {
             place_m,
             displacements_m,
             edges: self.edges,
+        }
+    }
+
+    /// Half way to another of the same springs.
+    fn between(&self, other: &Self) -> Self {
+        let both = self.displacements_m.iter().zip(&other.displacements_m);
+        Self {
+            displacements_m: both.map(|(own, other)| 0.5 * (own + other)).collect(),
+            ..other.clone()
         }
     }
 
