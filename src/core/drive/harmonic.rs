@@ -200,9 +200,13 @@ impl HarmonicDrive {
         self.mean + self.amplitude
     }
 
-    /// The value during the hold before the oscillation, in the unit of the control: the mean, or no load where that is a pull.
+    /// The value during the hold before the oscillation, in the unit of the control: the mean, or no load where that is a pull that the
+    /// indenter does not carry from its first touch on.
     pub fn held(&self) -> f64 {
-        self.pressing(self.mean)
+        match self.control == Control::Load && self.pull_off_n.is_infinite() {
+            true => self.mean.max(0.0),
+            false => self.pressing(self.mean),
+        }
     }
 
     /// The value at this fraction of a cycle since the oscillation began, in the unit of the control.
@@ -285,6 +289,10 @@ mod tests {
             assert!((part - drive.loaded_part().unwrap()).abs() <= 2.0 / f64::from(samples));
         }
         assert_eq!(HarmonicDrive::load(-1.0, 2.0).unwrap().held(), 0.0);
+        // Nothing is carried before the first touch, whatever is afterwards.
+        let attracted = HarmonicDrive::load(-1.0, 2.0).unwrap();
+        let attracted = attracted.attracted_by(f64::INFINITY).unwrap();
+        assert_eq!((attracted.held(), attracted.value(0.75)), (0.0, -3.0));
         assert!(matches!(
             HarmonicDrive::load(-2.0, 2.0),
             Err(DriveError::NoTouch { .. })

@@ -80,9 +80,10 @@ impl Simulation {
             if weights.step_s() != moment.step_s {
                 weights = StepWeights::new(&body, moment.step_s);
             }
+            let from = before;
             for part in 1..=parts {
                 let share = part as f64 / parts as f64;
-                let edges = springs.step(&weights, self.on_the_way(&before, moment, share))?;
+                let edges = springs.step(&weights, self.on_the_way(&from, moment, share))?;
                 work_j +=
                     0.5 * (edges.load_n + before.load_n) * (edges.approach_m - before.approach_m);
                 trajectory
@@ -107,7 +108,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// What is prescribed on the way from an instant to a moment.
+    /// What is prescribed at this share of the way from an instant to a moment.
     fn on_the_way(&self, before: &Edges, moment: &Moment, share: f64) -> Prescribed {
         let control = self.plan.drive.control();
         let from = match prescribed(control, moment.value) {
