@@ -10,8 +10,9 @@ use super::body::Body;
 use super::springs::{Edges, Springs};
 use super::weights::StepWeights;
 use crate::contact::{ContactError, Prescribed};
-use crate::cycle::closure_error;
+use crate::cycle::{closure_error, work_along};
 use crate::indenter::Axisymmetric;
+use crate::numerics::grid::in_steps;
 use crate::numerics::roots::{ALL_DIGITS, bisect};
 use crate::steady::Anderson;
 
@@ -32,8 +33,7 @@ pub struct Cycle<'a> {
 /// When a search ends.
 #[derive(Clone, Copy)]
 pub struct Ending<'a> {
-    /// Largest change of load, approach and contact radius from cycle to cycle, relative to their ranges, and of the loop's ends
-    /// relative to its area.
+    /// Largest distance between two cycles: see `distance`.
     pub tolerance: f64,
     pub most_cycles: usize,
     /// Asked before every step.
@@ -216,8 +216,7 @@ impl<'a> Cycle<'a> {
         Ok(Layout::of(&found.edges))
     }
 
-    /// The stabilised cycle in this many steps, on this many springs for edges that go like this, searched from a state, if any
-    /// is given.
+    /// The stabilised cycle in this many steps, on this many springs for edges that go like this, searched or marched from a start.
     ///
     /// # Errors
     /// [`ContactError`] of the instant that could not be solved.
@@ -250,18 +249,7 @@ impl<'a> Cycle<'a> {
             StepWeights::new(self.body, step_s),
         );
         let mut springs = Springs::new(self.body, self.profile, self.attraction, places_m);
-        match start {
-            Start::From(state) => springs.recall(&state.at(&springs)),
-            Start::Rest => {
-                if springs.rest(self.mean).is_err() {
-                    springs.rest(self.maximum)?;
-                }
-            }
-            Start::March { hold_s, held } => {
-                springs.step(&jump, held)?;
-                self.hold(&mut springs, (hold_s, held), steps)?;
-            }
-        }
+        self.begin(&mut springs, (&jump, steps), start)?;
         let mut state = springs.state();
         let mut anderson = Anderson::default();
         let least_squares = springs.importance();
@@ -331,6 +319,28 @@ impl<'a> Cycle<'a> {
         }
     }
 
+    /// Goes to where a search or a march starts.
+    fn begin(
+        &self,
+        springs: &mut Springs<'_>,
+        (jump, steps): (&StepWeights, usize),
+        start: Start<'_>,
+    ) -> Result<(), ContactError> {
+        match start {
+            Start::From(state) => springs.recall(&state.at(springs)),
+            Start::Rest => {
+                if springs.rest(self.mean).is_err() {
+                    springs.rest(self.maximum)?;
+                }
+            }
+            Start::March { hold_s, held } => {
+                springs.step(jump, held)?;
+                self.hold(springs, (hold_s, held), steps)?;
+            }
+        }
+        Ok(())
+    }
+
     /// One cycle from where the springs are: its edges, its jumps, and the memory at its beginning.
     fn once(
         &self,
@@ -370,8 +380,7 @@ impl<'a> Cycle<'a> {
         let decades = (hold_s / first_s).log10();
         let count = (0.1 * steps as f64 * decades).ceil() as usize;
         let mut before_s = 0.0;
-        for k in 0..=count {
-            let at_s = first_s * (hold_s / first_s).powf(k as f64 / count as f64);
+        for at_s in in_steps(first_s, hold_s, count) {
             springs.step(&StepWeights::new(self.body, at_s - before_s), held)?;
             before_s = at_s;
         }
@@ -395,14 +404,13 @@ fn distance(before: &[Edges], now: &[Edges], is_elastic: bool) -> f64 {
     if is_elastic {
         return signals;
     }
-    let loss_j = |edges: &[Edges]| -> f64 {
-        let steps = edges.windows(2);
-        let work =
-            steps.map(|e| 0.5 * (e[0].load_n + e[1].load_n) * (e[1].approach_m - e[0].approach_m));
-        work.sum()
-    };
-    let [last_j, loss_j] = [before, now].map(loss_j);
-    let (load_n, approach_m) = (values(now, |e| e.load_n), values(now, |e| e.approach_m));
+    let signals_of =
+        |edges: &[Edges]| (values(edges, |e| e.load_n), values(edges, |e| e.approach_m));
+    let [(last_n, last_m), (load_n, approach_m)] = [before, now].map(signals_of);
+    let (last_j, loss_j) = (
+        work_along(&last_n, &last_m),
+        work_along(&load_n, &approach_m),
+    );
     let closure = closure_error(&load_n, &approach_m).unwrap_or(0.0);
     signals.max(closure).max(((loss_j - last_j) / loss_j).abs())
 }

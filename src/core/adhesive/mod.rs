@@ -218,8 +218,12 @@ mod tests {
         }
     }
 
-    /// The loss of the second cycle of a load, over pi w R (R w^2 / E^2)^(1/3), of a Zener sphere at rest before.
-    fn loss(omega: f64, steps: usize, springs: usize) -> f64 {
+    /// Instants of a march of so many cycles of a load, of a Zener sphere at rest before, seen after each step.
+    fn marched(
+        (omega, cycles): (f64, usize),
+        (steps, springs): (usize, usize),
+        mut see: impl FnMut(&Springs<'_>),
+    ) -> Vec<Edges> {
         let ball = Sphere::new(RADIUS_M).unwrap();
         let (_, attraction) = sphere(3.24);
         let body = Body::new(&solid(&[(9.0, 1.0)]), omega.recip()).unwrap();
@@ -227,18 +231,20 @@ mod tests {
         places_m.extend(evenly(0.238, 0.27, springs));
         let profile = ball.axisymmetric().unwrap();
         let mut springs = Springs::new(&body, profile, attraction, places_m);
-        springs.rest(Prescribed::LoadN(0.5 * PI_W_R)).unwrap();
+        let mut edges = vec![springs.rest(Prescribed::LoadN(0.5 * PI_W_R)).unwrap()];
         let weights = StepWeights::new(&body, TAU / omega / steps as f64);
-        let mut edges = Vec::new();
-        for step in 1..=2 * steps {
+        for step in 1..=cycles * steps {
             let phase = TAU * step as f64 / steps as f64;
             let load_n = PI_W_R * (0.5 + 0.4 * phase.sin());
             edges.push(springs.step(&weights, Prescribed::LoadN(load_n)).unwrap());
+            see(&springs);
         }
-        let cycle = edges[steps - 1..].windows(2);
-        let work =
-            cycle.map(|e| 0.5 * (e[0].load_n + e[1].load_n) * (e[1].approach_m - e[0].approach_m));
-        work.sum::<f64>() / (PI_W_R * LENGTH_M)
+        edges
+    }
+
+    /// The loss of the second cycle, over pi w R (R w^2 / E^2)^(1/3).
+    fn loss(omega: f64, steps: usize, springs: usize) -> f64 {
+        area(&marched((omega, 2), (steps, springs), |_| ())[steps..])
     }
 
     #[test]
@@ -308,17 +314,7 @@ mod tests {
             found.distance <= 1e-5 && found.cycles < 10 && found.jumps.is_empty(),
             "{found:?}"
         );
-        let attraction = cycle.attraction;
-        let mut places_m = vec![0.0];
-        places_m.extend(evenly(0.238, 0.27, 400));
-        let mut springs = Springs::new(&body, profile, attraction, places_m);
-        springs.rest(cycle.mean).unwrap();
-        let weights = StepWeights::new(&body, cycle.period_s / steps as f64);
-        let mut marched = vec![springs.edges()];
-        for step in 1..=6 * steps {
-            let phase = step as f64 / steps as f64;
-            marched.push(springs.step(&weights, drive(phase)).unwrap());
-        }
+        let marched = marched((omega, 6), (steps, 400), |_| ());
         // The edge remembers for five cycles what the body forgets in one.
         let (last, second) = (
             area(&marched[5 * steps..]),
@@ -334,34 +330,23 @@ mod tests {
 
     /// What the dashpots of all springs take up in a cycle, and the area of its loop, of the seventh cycle of a march.
     fn dissipated_and_lost(omega: f64, steps: usize, springs: usize) -> (f64, f64) {
-        let ball = Sphere::new(RADIUS_M).unwrap();
-        let (_, attraction) = sphere(3.24);
-        let body = Body::new(&solid(&[(9.0, 1.0)]), omega.recip()).unwrap();
-        let mut places_m = vec![0.0];
-        places_m.extend(evenly(0.238, 0.27, springs));
-        let profile = ball.axisymmetric().unwrap();
-        let mut springs = Springs::new(&body, profile, attraction, places_m);
-        springs.rest(Prescribed::LoadN(0.5 * PI_W_R)).unwrap();
         let step_s = TAU / omega / steps as f64;
-        let weights = StepWeights::new(&body, step_s);
-        let (mut edges, mut dissipated_j) = (Vec::new(), 0.0);
-        for step in 0..=7 * steps {
-            let phase = TAU * step as f64 / steps as f64;
-            let before = springs.state().parts().0.to_vec();
-            let load_n = PI_W_R * (0.5 + 0.4 * phase.sin());
-            edges.push(springs.step(&weights, Prescribed::LoadN(load_n)).unwrap());
-            if step <= 6 * steps {
-                continue;
+        let (mut seen, mut dissipated_j, mut before) = (0, 0.0, Vec::new());
+        let edges = marched((omega, 7), (steps, springs), |springs| {
+            seen += 1;
+            let state = springs.state();
+            let after = state.parts().0.to_vec();
+            if seen > 6 * steps {
+                let moved = before.iter().zip(&after);
+                let moved = moved.map(|(before, after): (&f64, &f64)| (after - before).powi(2));
+                // E tau times the square of the rate.
+                let power: Vec<f64> = moved.map(|square| 9.0 * square / step_s).collect();
+                let places = springs.places_m().windows(2).zip(power.windows(2));
+                let rows = places.map(|(x, p)| (x[1] - x[0]) * (p[0] + p[1]));
+                dissipated_j += rows.sum::<f64>();
             }
-            let after = springs.state();
-            let moved = before.iter().zip(after.parts().0);
-            let moved = moved.map(|(before, after)| (after - before).powi(2));
-            // E tau times the square of the rate.
-            let power: Vec<f64> = moved.map(|square| 9.0 * square / step_s).collect();
-            let places = springs.places_m().windows(2).zip(power.windows(2));
-            let rows = places.map(|(x, p)| (x[1] - x[0]) * (p[0] + p[1]));
-            dissipated_j += rows.sum::<f64>();
-        }
+            before = after;
+        });
         (
             dissipated_j / (PI_W_R * LENGTH_M),
             area(&edges[6 * steps..]),

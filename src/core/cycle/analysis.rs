@@ -262,12 +262,17 @@ fn spectrum(samples: &[f64]) -> Result<Vec<Complex<f64>>, LoopError> {
     Ok(output)
 }
 
-/// Closed integral of W d(delta) by the trapezium rule.
-pub(super) fn polygon_area(load_n: &[f64], approach_m: &[f64]) -> f64 {
+/// Integral of W d(delta) along the samples by the trapezium rule.
+pub(crate) fn work_along(load_n: &[f64], approach_m: &[f64]) -> f64 {
     let edges = load_n.windows(2).zip(approach_m.windows(2));
-    let open: f64 = edges
+    edges
         .map(|(w, d)| 0.5 * (w[0] + w[1]) * (d[1] - d[0]))
-        .sum();
+        .sum()
+}
+
+/// The closed integral.
+pub(super) fn polygon_area(load_n: &[f64], approach_m: &[f64]) -> f64 {
+    let open = work_along(load_n, approach_m);
     // What is left between last and first sample closes the polygon.
     let (first, last) = (0, load_n.len() - 1);
     open + 0.5 * (load_n[last] + load_n[first]) * (approach_m[first] - approach_m[last])

@@ -23,6 +23,7 @@
 mod analysis;
 mod stabilisation;
 
+pub(crate) use analysis::work_along;
 pub use analysis::{Harmonic, Harmonics, LoopAnalysis, LoopError, analyse, analyse_open};
 pub use stabilisation::closure_error;
 

@@ -148,10 +148,7 @@ impl HarmonicDrive {
 
     /// The constant attraction (N) that the contact carries beside the load: zero without one.
     pub fn pull_off_n(&self) -> f64 {
-        match self.pull_off_n.is_finite() {
-            true => self.pull_off_n,
-            false => 0.0,
-        }
+        super::constant_n(self.pull_off_n)
     }
 
     /// A load (N) that oscillates from its mean on, without a hold.

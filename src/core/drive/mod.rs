@@ -128,3 +128,11 @@ pub enum DriveError {
     #[error("the hold of {hold_s} s must be zero or a positive, finite time")]
     Hold { hold_s: f64 },
 }
+
+/// The constant pull (N) beside a load: an infinite one is that of a contact which says itself how much it carries.
+fn constant_n(pull_off_n: f64) -> f64 {
+    match pull_off_n.is_finite() {
+        true => pull_off_n,
+        false => 0.0,
+    }
+}

@@ -129,10 +129,7 @@ impl SegmentedDrive {
 
     /// The constant attraction (N) that the contact carries beside a load, 0 without one.
     pub fn pull_off_n(&self) -> f64 {
-        match self.pull_off_n.is_finite() {
-            true => self.pull_off_n,
-            false => 0.0,
-        }
+        super::constant_n(self.pull_off_n)
     }
 
     /// What is prescribed.

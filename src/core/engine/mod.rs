@@ -441,7 +441,6 @@ impl EngineBuilder {
 }
 
 /// The indenter as a body of revolution, which springs take.
-/// The body of revolution that an indenter is.
 ///
 /// # Errors
 /// [`EngineError::NotAxisymmetric`] of another.

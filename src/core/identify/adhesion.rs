@@ -37,13 +37,11 @@ impl Problem for Joint<'_> {
         let (point, plan) = (Point(series.to_vec()), self.plan.attracted_by(attraction));
         let mut model = Model::new(&plan, self.interrupt);
         model.corrections.clone_from(&self.corrections);
-        let linearised = self.linearised;
-        let numbers = model.numbers(&point.relaxation().ok()?).ok()?;
-        Exact {
+        let exact = Exact {
             model: &model,
-            linearised,
-        }
-        .scaled(&numbers, &point)
+            linearised: self.linearised,
+        };
+        exact.residuals(&point)
     }
 
     fn derivatives(&self, unknowns: &Vec<f64>) -> Option<DMatrix<f64>> {
@@ -94,13 +92,10 @@ pub(super) fn identify(
         found.ok_or(IdentifyError::NoFit("the exact model failed at the start"))
     };
     let mut found = refined(&joint, &[&point.0[..], &start].concat())?;
-    let at = |found: &Solution<Vec<f64>>| {
-        let (series, attraction) = found.unknowns.split_at(joint.of_series);
-        (Point(series.to_vec()), plan.attracted_by(attraction))
-    };
-    let (series, attracted) = at(&found);
+    let (series, attraction) = found.unknowns.split_at(joint.of_series);
+    let attracted = plan.attracted_by(attraction);
     let mut model = Model::new(&attracted, interrupt);
-    match model.learn_corrections(&series.relaxation()?) {
+    match model.learn_corrections(&Point(series.to_vec()).relaxation()?) {
         Ok(Some(_)) => joint.corrections.clone_from(&model.corrections),
         Err(IdentifyError::Interrupted) => return Err(IdentifyError::Interrupted),
         Ok(None) | Err(_) => {}

@@ -216,7 +216,7 @@ pub(super) struct Exact<'a> {
 }
 
 impl Exact<'_> {
-    pub(super) fn scaled(&self, numbers: &[f64], point: &Point) -> Option<DVector<f64>> {
+    fn scaled(&self, numbers: &[f64], point: &Point) -> Option<DVector<f64>> {
         let data = self.linearised.plan.measurements.data().iter().zip(numbers);
         let relative = data.map(|(d, number)| (number.max(1e-6 * d.value) / d.value).ln());
         self.linearised.weighed(relative, point)

@@ -110,14 +110,15 @@ pub struct Separation {
 impl Separation {
     /// That of a history; `None` where no attraction moves the edge of the contact, or nothing is pulled.
     pub(super) fn of(plan: &ScenarioPlan, rows: &[HistoryRow]) -> Option<Self> {
+        if !plan.contact.is_attracted() {
+            return None;
+        }
         let pulled = (0..rows.len()).filter(|place| rows[*place].load_n < 0.0);
         let last_pulled = pulled.clone().next_back();
         let least = pulled.min_by(|a, b| rows[*a].load_n.total_cmp(&rows[*b].load_n));
-        let (least, last) = least
-            .zip(last_pulled)
-            .filter(|_| plan.contact.is_attracted())?;
+        let (least, last) = least.zip(last_pulled)?;
         let begins = rows[..=last].iter().rposition(|row| row.load_n >= 0.0);
-        let mut steps = rows[begins.unwrap_or(0)..].windows(2).filter_map(|pair| {
+        let steps = rows[begins.unwrap_or(0)..].windows(2).filter_map(|pair| {
             let travel_m = pair[1].approach_m? - pair[0].approach_m?;
             Some(0.5 * (pair[0].load_n + pair[1].load_n) * travel_m)
         });
@@ -127,7 +128,7 @@ impl Separation {
         Some(Self {
             pull_n: -rows[least].load_n,
             pull_error_n: None,
-            work_j: ends_apart.then(|| steps.by_ref().sum()),
+            work_j: ends_apart.then(|| steps.sum()),
             work_error_j: None,
         })
     }

@@ -9,8 +9,8 @@ use super::units::Measure;
 use super::{Drawn, Figure};
 use crate::report::caption::Caption;
 use crate::report::chart::{Color, LineStyle, Mark, Marker};
-use crate::sweep::record::CaseRecord;
 use crate::sweep::record::error_bars::Quantity;
+use crate::sweep::record::{CaseRecord, CaseResult};
 
 const STIFFNESS: Along = Along::new("stiffness_ratio", "stiffness K/(2aE*)", Measure::Number);
 const PULL: Along =
@@ -155,14 +155,14 @@ fn stiffness(sweep: &SweepCurves<'_>, curve: &Curve<'_>) -> Drawn {
 
 /// The pull-off load of cycles in which the surfaces part.
 fn pull(sweep: &SweepCurves<'_>, curve: &Curve<'_>) -> Drawn {
-    let parts = |record: &CaseRecord| {
-        let result = record.result.as_ref()?;
-        (result.attracted()?.zone_radius_m.minimum == 0.0).then_some(())
+    let parts = |record: &&&CaseRecord| {
+        let cycle = record.result.as_ref().and_then(CaseResult::attracted);
+        cycle.is_some_and(|cycle| cycle.zone_radius_m.minimum == 0.0)
     };
     let points: Vec<Point> = curve
         .records
         .iter()
-        .filter(|record| parts(record).is_some())
+        .filter(parts)
         .map(|record| point(sweep, record, Quantity::LargestPull))
         .collect();
     if points.len() < 2 {

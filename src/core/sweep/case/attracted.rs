@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 use std::sync::atomic::Ordering;
 
-use crate::adhesive::cycle::State;
+use crate::adhesive::cycle::{Jumped, State};
 use crate::adhesive::{Attraction, Body, Cycle, Edges, Ending, Found, Layout, Start};
 use crate::contact::ContactError;
-use crate::cycle::{ContactDuty, Extrema, Harmonic, Loop, analyse, analyse_open};
+use crate::cycle::{ContactDuty, Extrema, Harmonic, Loop, LoopAnalysis, analyse, analyse_open};
 use crate::engine::{body_of_revolution, prescribed};
 use crate::history::Work;
 use crate::sweep::case::levels::Level;
@@ -177,28 +177,7 @@ impl Contact<'_> {
         } else if cycle.body.branches() == 0 {
             analysis = analysis.of_energy_loss(0.0);
         }
-        // Between samples beside a jump there is no parabola.
-        let is_jump = |k: usize| {
-            found
-                .jumps
-                .iter()
-                .any(|(step, _)| (k..=k + 1).contains(step))
-        };
-        let extrema = |samples: &[f64]| {
-            let places = || (0..samples.len()).filter(|k| samples[*k].is_finite());
-            let least = places().min_by(|a, b| samples[*a].total_cmp(&samples[*b]));
-            let greatest = places().max_by(|a, b| samples[*a].total_cmp(&samples[*b]));
-            let (least, greatest) = (least.unwrap_or(0), greatest.unwrap_or(0));
-            let refined = Extrema::of(samples);
-            let at = |k: usize, refined: Option<f64>| match refined {
-                Some(value) if !is_jump(k) => value,
-                _ => samples[k],
-            };
-            Extrema {
-                minimum: at(least, refined.map(|refined| refined.minimum)),
-                maximum: at(greatest, refined.map(|refined| refined.maximum)),
-            }
-        };
+        let extrema = |samples: &[f64]| extrema(samples, &found.jumps);
         let radius_m = |samples: &[f64]| {
             let radius_m = extrema(samples);
             Extrema {
@@ -207,13 +186,8 @@ impl Contact<'_> {
             }
         };
         let contact_duty = ContactDuty::of(&contact_radius_m).unwrap_or(ContactDuty::WHOLE);
-        let material = &self.condition.contact.material;
-        let moduli_pa = (is_smooth && contact_duty == ContactDuty::WHOLE).then(|| {
-            let mean_m = contact_radius_m[1..].iter().sum::<f64>() / steps as f64;
-            let nu = material.poisson_ratio().unwrap_or(0.0);
-            let moduli_pa = analysis.equivalent_moduli_pa(mean_m, nu)?;
-            Some(material.of_loop(moduli_pa, self.angular_frequency_rad_per_s))
-        });
+        let is_whole = is_smooth && contact_duty == ContactDuty::WHOLE;
+        let moduli_pa = is_whole.then(|| self.attracted_moduli_pa(&contact_radius_m, &analysis));
         let moduli_pa = moduli_pa.flatten();
         let jumps = found.jumps.iter().map(|&(step, loss_j)| Jump {
             before: edges[step - 1].into(),
@@ -255,6 +229,15 @@ impl Contact<'_> {
         })
     }
 
+    /// E' and E'' (Pa) that the loop is read as at its mean radius.
+    fn attracted_moduli_pa(&self, radius_m: &[f64], analysis: &LoopAnalysis) -> Option<(f64, f64)> {
+        let mean_m = radius_m[1..].iter().sum::<f64>() / (radius_m.len() - 1) as f64;
+        let material = &self.condition.contact.material;
+        let nu = material.poisson_ratio().unwrap_or(0.0);
+        let moduli_pa = analysis.equivalent_moduli_pa(mean_m, nu)?;
+        Some(material.of_loop(moduli_pa, self.angular_frequency_rad_per_s))
+    }
+
     /// What the springs dissipate that are in contact all the time: they share one displacement, and so the loss of each follows from
     /// its harmonics.
     fn bulk_loss_j(&self, always_m: f64, harmonics: &[Harmonic]) -> f64 {
@@ -265,6 +248,22 @@ impl Contact<'_> {
             PI * n * harmonic.approach_amplitude_m.powi(2) * compliance.inv().im
         });
         2.0 * always_m * losses.sum::<f64>()
+    }
+}
+
+/// Extrema of a signal, between its samples where no jump is beside them: there is no parabola there.
+fn extrema(samples: &[f64], jumps: &[Jumped]) -> Extrema {
+    let by_size = |a: &usize, b: &usize| samples[*a].total_cmp(&samples[*b]);
+    let least = (0..samples.len()).min_by(by_size).unwrap_or(0);
+    let greatest = (0..samples.len()).max_by(by_size).unwrap_or(0);
+    let refined = Extrema::of(samples);
+    let at = |k: usize, refined: Option<f64>| {
+        let is_smooth = !jumps.iter().any(|(step, _)| (k..=k + 1).contains(step));
+        refined.filter(|_| is_smooth).unwrap_or(samples[k])
+    };
+    Extrema {
+        minimum: at(least, refined.map(|refined| refined.minimum)),
+        maximum: at(greatest, refined.map(|refined| refined.maximum)),
     }
 }
 
