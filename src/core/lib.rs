@@ -8,6 +8,7 @@ pub mod contact;
 pub mod cycle;
 pub mod drive;
 pub mod engine;
+pub mod force_curve;
 pub mod history;
 pub mod identify;
 pub mod indenter;

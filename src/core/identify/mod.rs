@@ -52,11 +52,11 @@ mod history;
 mod identified;
 mod linear;
 mod model;
-mod noise;
+pub(crate) mod noise;
 pub mod resolved;
 mod selection;
 mod series;
-mod uncertainty;
+pub(crate) mod uncertainty;
 
 pub use candidate::Candidate;
 pub use curve::{Curve, curves};

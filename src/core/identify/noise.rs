@@ -45,7 +45,7 @@ pub(super) struct Scatter {
 }
 
 /// Whether chi squared per degree of freedom is larger than chance makes it, by three of its standard deviations.
-pub(super) fn is_missed(reduced_chi_squared: f64, degrees_of_freedom: usize) -> bool {
+pub(crate) fn is_missed(reduced_chi_squared: f64, degrees_of_freedom: usize) -> bool {
     let deviation = (2.0 / degrees_of_freedom.max(1) as f64).sqrt();
     reduced_chi_squared > 1.0 + 3.0 * deviation
 }

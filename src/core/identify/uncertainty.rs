@@ -12,7 +12,7 @@ const STEP: f64 = 1e-4;
 
 /// Directions of the unknowns, and how far the data let each of them go.
 #[derive(Debug, Clone)]
-pub(super) struct Directions {
+pub(crate) struct Directions {
     /// Descending.
     pub(super) singular_values: Vec<f64>,
     /// A row for each direction, of length one.
@@ -25,7 +25,7 @@ pub(super) struct Directions {
 
 impl Directions {
     /// Of derivatives of residuals that scatter with this standard deviation; `None` where there is no decomposition.
-    pub(super) fn new(derivatives: &DMatrix<f64>, scatter: f64) -> Option<Self> {
+    pub(crate) fn new(derivatives: &DMatrix<f64>, scatter: f64) -> Option<Self> {
         if !derivatives.iter().all(|value| value.is_finite()) {
             return None;
         }
@@ -64,7 +64,7 @@ impl Directions {
     }
 
     /// Covariance of the unknowns.
-    pub(super) fn covariance(&self) -> DMatrix<f64> {
+    pub(crate) fn covariance(&self) -> DMatrix<f64> {
         let squares = self.deviations.iter().map(|d| d * d);
         let diagonal = DMatrix::from_diagonal(&DVector::from_vec(squares.collect()));
         let of_noise = self.vectors.transpose() * diagonal * &self.vectors;
@@ -75,7 +75,7 @@ impl Directions {
     }
 
     /// Variance of a quantity with this gradient.
-    pub(super) fn variance(&self, gradient: &DVector<f64>) -> f64 {
+    pub(crate) fn variance(&self, gradient: &DVector<f64>) -> f64 {
         // A gradient by the first unknowns alone.
         let gradient = gradient
             .clone()

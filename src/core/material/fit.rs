@@ -51,7 +51,7 @@ mod search;
 
 use rayon::prelude::*;
 
-use super::random::Noise;
+use crate::numerics::random::Noise;
 use super::spectrum::Series;
 use super::tabulated::Tabulated;
 use super::{

@@ -38,6 +38,7 @@ pub mod fit;
 pub mod fractional;
 pub mod interpolant;
 pub mod keys;
+pub mod law;
 pub mod library;
 pub mod sampled;
 pub mod tabulated;
@@ -48,7 +49,6 @@ mod error;
 mod functions;
 mod harmonic;
 mod peaks;
-mod random;
 mod relaxation;
 mod spectrum;
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Synthetic measurements for tests: times as a laboratory spaces them, and noise that is the same in every run.
 
-pub(super) use super::random::Noise;
+pub(super) use crate::numerics::random::Noise;
 
 /// Times from `from` to `to`, both met, this many per decade.
 pub(super) fn log_spaced(from: f64, to: f64, per_decade: usize) -> Vec<f64> {

@@ -6,4 +6,5 @@ pub mod levenberg_marquardt;
 pub mod nnls;
 pub mod order;
 pub mod polynomial;
+pub(crate) mod random;
 pub mod roots;

@@ -15,7 +15,7 @@ use super::master_curve::{self, MasterCurve};
 use super::prony::{self, PronyFit};
 use super::{Choices, DynamicData, DynamicError, DynamicPoint, Isotherm, master_points};
 use crate::material::Relaxation;
-use crate::material::random::Noise;
+use crate::numerics::random::Noise;
 
 /// Standard deviations of the error of a single value, which the truth is within in 95 % of cases.
 pub const POINTWISE_DEVIATIONS: f64 = 2.0;

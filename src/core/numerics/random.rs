@@ -1,11 +1,11 @@
 //! Random numbers that are the same in every run: of a seed, and of a number within it.
 
 /// Deviates from a seed: splitmix64 (G. L. Steele, D. Lea and C. H. Flood 2014) and the transform of Box and Muller.
-pub(super) struct Noise(pub(super) u64);
+pub(crate) struct Noise(pub(super) u64);
 
 impl Noise {
     /// The stream of this number, among those of one seed: the same whatever became of the others.
-    pub(super) fn stream(seed: u64, number: u64) -> Self {
+    pub(crate) fn stream(seed: u64, number: u64) -> Self {
         Self(Self(seed).bits() ^ Self(!number).bits().rotate_left(32))
     }
 
@@ -18,12 +18,12 @@ impl Noise {
     }
 
     /// From zero to one.
-    pub(super) fn uniform(&mut self) -> f64 {
+    pub(crate) fn uniform(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     /// Mean zero, variance one.
-    pub(super) fn normal(&mut self) -> f64 {
+    pub(crate) fn normal(&mut self) -> f64 {
         let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();
         radius * (std::f64::consts::TAU * self.uniform()).cos()
     }

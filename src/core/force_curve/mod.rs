@@ -1,0 +1,21 @@
+//! A law of a material from a force curve: force over indentation over time, while a probe approaches, holds and retracts.
+//!
+//! # How
+//!
+//! 1. Samples that lie on a line are one point, the mean of them, with the noise that the scatter of neighbours tells ([`record`]).
+//! 2. The indentation is prescribed, and the force follows from the springs of the axisymmetric engine ([`springs`]), loading and
+//!    unloading, as often as they come.
+//! 3. Unknown are the parameters of a law ([`crate::material::law`]), where the indentation begins, and, where the curve has a part before
+//!    contact, offset and drift of the force, and a drag where the speed changes: all at once, by least squares. What is linear is
+//!    projected out (G. H. Golub, V. Pereyra, SIAM J. Numer. Anal. 10 (1973) 413).
+//! 4. Noise of the indentation counts by the stiffness of the contact at that point (effective variance: J. Orear, Am. J. Phys. 50
+//!    (1982) 912).
+//! 5. Laws are compared by the criterion of G. Schwarz (Ann. Statist. 6 (1978) 461). The band of E* has in it what the laws that are
+//!    nearly as good say otherwise, each by its weight.
+
+pub mod record;
+mod fit;
+mod springs;
+
+pub use fit::{CurveError, CurveFit, CurvePlan, Estimate, FittedLaw, Nuisance, fit};
+pub use record::ForceCurve;

@@ -1,0 +1,344 @@
+//! Laws of a few parameters, between which measurements choose: their parameters, their complex modulus, and the series that stands for
+//! them over the times of a measurement.
+//!
+//! ```text
+//! power-law             E* = E (i omega 1 s)^a
+//! standard-solid        E* = E_inf + E_1 i omega tau/(1 + i omega tau)
+//! fractional-zener      E* = E_inf + E_1 (i omega tau)^a/(1 + (i omega tau)^a)
+//! fractional-maxwell    E* = E_1 (i omega tau)^a/(1 + (i omega tau)^(a - b))
+//! kelvin-voigt          E* = E_inf + E (i omega 1 s)^a
+//! kww                   E(t) = E_inf + E_1 exp(-(t/tau)^a)
+//! series                E(t) = E_inf + sum of E_i exp(-t/tau_i)
+//! ```
+//!
+//! The fractional ones are those of [`super::fractional`]; the stretched exponential is that of R. Kohlrausch (Ann. Phys. 167 (1854) 179)
+//! and of G. Williams, D. C. Watts (Trans. Faraday Soc. 66 (1970) 80).
+
+use nalgebra::{DMatrix, DVector};
+use num_complex::Complex;
+
+use super::fractional::Fractional;
+use super::relaxation::{Relaxation, RelaxationBranch};
+use crate::numerics::nnls::nnls;
+use crate::quantity::Dimension;
+use crate::words;
+
+words! {
+    /// A law.
+    pub enum Law {
+        PowerLaw = "power-law",
+        StandardSolid = "standard-solid",
+        FractionalZener = "fractional-zener",
+        FractionalMaxwell = "fractional-maxwell",
+        KelvinVoigt = "kelvin-voigt",
+        Kww = "kww",
+        Series = "series",
+    }
+}
+
+/// A law with its number of branches, which is one but for a series.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Form {
+    pub law: Law,
+    pub branches: usize,
+}
+
+/// A parameter of a law.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// With its unit: `modulus_pa`, `time_s`, `exponent`.
+    pub name: String,
+    pub scale: Scale,
+}
+
+/// What a fit takes for a parameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scale {
+    /// Its logarithm.
+    Logarithm(Dimension),
+    /// The logarithm of its odds p/(1 - p).
+    Odds,
+}
+
+impl Scale {
+    /// The parameter of an unknown.
+    pub fn value(self, unknown: f64) -> f64 {
+        match self {
+            Self::Logarithm(_) => unknown.exp(),
+            Self::Odds => 1.0 / (1.0 + (-unknown).exp()),
+        }
+    }
+
+    /// The unknown of a parameter.
+    pub fn unknown(self, value: f64) -> f64 {
+        match self {
+            Self::Logarithm(_) => value.ln(),
+            Self::Odds => (value / (1.0 - value)).ln(),
+        }
+    }
+}
+
+/// By which factor the times of a series go beyond those of a measurement.
+const BEYOND: f64 = 10.0;
+
+impl Form {
+    /// All that are tried where the data are to choose: a series of one branch is the standard solid.
+    pub fn all(most_branches: usize) -> Vec<Self> {
+        let one = Law::NAMES.iter().map(|(_, law)| Self {
+            law: *law,
+            branches: 1,
+        });
+        let own = one.filter(|form| form.law != Law::Series);
+        own.chain(Self::series(2, most_branches)).collect()
+    }
+
+    /// Series of these numbers of branches.
+    pub fn series(fewest: usize, most: usize) -> impl Iterator<Item = Self> {
+        (fewest..=most).map(|branches| Self {
+            law: Law::Series,
+            branches,
+        })
+    }
+
+    /// In the order of its unknowns: moduli first, but those of a series, of which each has its time behind it.
+    pub fn parameters(self) -> Vec<Parameter> {
+        const STRESS: Scale = Scale::Logarithm(Dimension::Stress);
+        const TIME: Scale = Scale::Logarithm(Dimension::Time);
+        let parameter = |(name, scale): (&str, Scale)| Parameter {
+            name: name.to_owned(),
+            scale,
+        };
+        let equilibrium = ("equilibrium_modulus_pa", STRESS);
+        let (modulus, time, exponent) = (
+            ("modulus_pa", STRESS),
+            ("time_s", TIME),
+            ("exponent", Scale::Odds),
+        );
+        let all: &[(&str, Scale)] = match self.law {
+            Law::PowerLaw => &[modulus, exponent],
+            Law::StandardSolid => &[equilibrium, modulus, time],
+            Law::FractionalZener | Law::Kww => &[equilibrium, modulus, time, exponent],
+            // The second is a part of the first.
+            Law::FractionalMaxwell => &[modulus, time, exponent, ("exponent_ratio", Scale::Odds)],
+            Law::KelvinVoigt => &[equilibrium, modulus, exponent],
+            Law::Series => &[equilibrium],
+        };
+        let mut all: Vec<Parameter> = all.iter().copied().map(parameter).collect();
+        if self.law == Law::Series {
+            for k in 1..=self.branches {
+                let (modulus, time) = (format!("modulus_{k}_pa"), format!("time_{k}_s"));
+                all.extend([parameter((&modulus, STRESS)), parameter((&time, TIME))]);
+            }
+        }
+        all
+    }
+
+    /// The parameters of unknowns.
+    pub fn values(self, unknowns: &[f64]) -> Vec<f64> {
+        let parameters = self.parameters();
+        let all = parameters.iter().zip(unknowns);
+        all.map(|(parameter, unknown)| parameter.scale.value(*unknown))
+            .collect()
+    }
+
+    fn fractional(self, values: &[f64]) -> Option<Fractional> {
+        let made = match (self.law, values) {
+            (Law::PowerLaw, &[modulus_pa, exponent]) => {
+                Fractional::springpot(modulus_pa, 1.0, exponent)
+            }
+            (Law::FractionalZener, &[equilibrium_pa, modulus_pa, time_s, exponent]) => {
+                Fractional::zener(equilibrium_pa, modulus_pa, time_s, exponent)
+            }
+            (Law::FractionalMaxwell, &[modulus_pa, time_s, exponent, ratio]) => {
+                Fractional::maxwell(modulus_pa, time_s, exponent, ratio * exponent)
+            }
+            (Law::KelvinVoigt, &[equilibrium_pa, modulus_pa, exponent]) => {
+                Fractional::kelvin_voigt(equilibrium_pa, modulus_pa, 1.0, exponent)
+            }
+            _ => return None,
+        };
+        made.ok()
+    }
+
+    /// E* (Pa) in closed form, of a stretched exponential that of its series; `None` of parameters that are none.
+    pub fn complex_modulus_pa(
+        self,
+        values: &[f64],
+        angular_frequency_rad_per_s: f64,
+    ) -> Option<Complex<f64>> {
+        let omega = angular_frequency_rad_per_s;
+        if let Some(fractional) = self.fractional(values) {
+            return Some(fractional.complex_modulus(omega));
+        }
+        let beside = (1e-2 / omega, 1e2 / omega);
+        Some(self.series_within(values, beside)?.complex_modulus(omega))
+    }
+
+    /// The Prony series that stands for the law from the shortest to the longest time (s): what relaxes later is a spring in it, or all
+    /// but one. `None` of parameters that are none.
+    pub fn series_within(self, values: &[f64], times_s: (f64, f64)) -> Option<Relaxation> {
+        if let Some(fractional) = self.fractional(values) {
+            return fractional.within(times_s).ok();
+        }
+        let branch = |modulus_pa, time_s| RelaxationBranch { modulus_pa, time_s };
+        let equilibrium_pa = *values.first()?;
+        let branches = match (self.law, values) {
+            (Law::Kww, &[_, modulus_pa, time_s, exponent]) => {
+                stretched(modulus_pa, time_s, exponent, times_s)?
+            }
+            _ => {
+                let pairs = values.get(1..)?.chunks_exact(2);
+                pairs.map(|pair| branch(pair[0], pair[1])).collect()
+            }
+        };
+        Relaxation::new(equilibrium_pa, branches).ok()
+    }
+
+    /// Unknowns to begin a fit with, of a body of about this modulus (Pa) over these times (s).
+    pub fn starts(self, modulus_pa: f64, (shortest_s, longest_s): (f64, f64)) -> Vec<Vec<f64>> {
+        let part = |share: f64| shortest_s * (longest_s / shortest_s).powf(share);
+        let (early, middle, late) = (part(0.2), part(0.5), part(0.8));
+        let half = 0.5 * modulus_pa;
+        // A springpot that has this modulus in the middle.
+        let springpot = |exponent: f64| modulus_pa * middle.powf(exponent);
+        let values: Vec<Vec<f64>> = match self.law {
+            Law::PowerLaw => [0.05, 0.2, 0.5]
+                .map(|a| vec![springpot(a), a])
+                .to_vec(),
+            Law::StandardSolid => [early, middle, late]
+                .map(|time| vec![half, modulus_pa, time])
+                .to_vec(),
+            Law::FractionalZener => [(early, 0.5), (middle, 0.5), (late, 0.5), (middle, 0.85)]
+                .map(|(time, a)| vec![half, modulus_pa, time, a])
+                .to_vec(),
+            Law::Kww => [(early, 0.5), (middle, 0.5), (late, 0.5), (middle, 0.85)]
+                .map(|(time, a)| vec![half, modulus_pa, time, a])
+                .to_vec(),
+            Law::FractionalMaxwell => [(early, 0.3), (middle, 0.3), (late, 0.3), (late, 0.8)]
+                .map(|(time, a)| vec![modulus_pa, time, a, 0.2])
+                .to_vec(),
+            Law::KelvinVoigt => [0.1, 0.3, 0.6]
+                .map(|a| vec![half, 0.5 * springpot(a), a])
+                .to_vec(),
+            Law::Series => {
+                let count = self.branches as f64;
+                [(0.1, 0.9), (0.3, 0.9), (0.5, 1.1)]
+                    .map(|(from, to)| {
+                        let branches = (0..self.branches).flat_map(|k| {
+                            let share = (k as f64 + 0.5) / count;
+                            [modulus_pa / count, part(from + (to - from) * share)]
+                        });
+                        [half].into_iter().chain(branches).collect()
+                    })
+                    .to_vec()
+            }
+        };
+        let parameters = self.parameters();
+        let unknowns = |values: Vec<f64>| {
+            let all = values.iter().zip(&parameters);
+            all.map(|(value, p)| p.scale.unknown(*value)).collect()
+        };
+        values.into_iter().map(unknowns).collect()
+    }
+
+    /// In words: `series of 2 branches`.
+    pub fn in_words(self) -> String {
+        match self.law {
+            Law::Series => format!("series of {}", super::branches_in_words(self.branches)),
+            law => law.name().to_owned(),
+        }
+    }
+}
+
+/// Branches with a stretched exponential from the shortest to the longest time: a non-negative least squares fit on fixed times, relative
+/// to what is left of the exponential and what has been lost.
+fn stretched(
+    modulus_pa: f64,
+    time_s: f64,
+    exponent: f64,
+    (shortest_s, longest_s): (f64, f64),
+) -> Option<Vec<RelaxationBranch>> {
+    const GRID: f64 = 0.8;
+    let from = (shortest_s / BEYOND).min(time_s / BEYOND).ln();
+    let to = (longest_s * BEYOND).max(time_s * BEYOND).ln();
+    let count = ((to - from) / GRID).ceil() as usize;
+    let times: Vec<f64> = (0..=count).map(|k| (from + GRID * k as f64).exp()).collect();
+    let samples: Vec<f64> = (0..2 * count)
+        .map(|k| (from + 0.5 * GRID * k as f64).exp())
+        .filter(|t| (0.5 * shortest_s..=2.0 * longest_s).contains(t))
+        .collect();
+    let exact = |t: f64| (-(t / time_s).powf(exponent)).exp();
+    let matrix = DMatrix::from_fn(samples.len() + 1, times.len(), |row, column| {
+        samples.get(row).map_or(1.0, |t| (-t / times[column]).exp())
+    });
+    let rows = samples.iter().map(|t| exact(*t)).chain([1.0]);
+    let right = DVector::from_iterator(samples.len() + 1, rows);
+    let parts = nnls(&matrix, &right).ok()?;
+    let branches = parts.iter().zip(times).filter(|(part, _)| **part > 0.0);
+    Some(
+        branches
+            .map(|(part, time_s)| RelaxationBranch {
+                modulus_pa: modulus_pa * part,
+                time_s,
+            })
+            .collect(),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A value for each parameter.
+    fn values(form: Form) -> Vec<f64> {
+        let parameters = form.parameters();
+        let value = |(k, p): (usize, &Parameter)| match p.scale {
+            Scale::Logarithm(Dimension::Time) => 0.3 * 10_f64.powi(k as i32 / 2),
+            Scale::Logarithm(_) => 1e3 * (k + 1) as f64,
+            Scale::Odds => 0.4,
+        };
+        parameters.iter().enumerate().map(value).collect()
+    }
+
+    #[test]
+    fn the_series_of_a_law_has_its_complex_modulus_where_it_stands_for_it() {
+        for form in Form::all(3) {
+            let values = values(form);
+            let series = form.series_within(&values, (1e-3, 1e2)).unwrap();
+            for omega in [0.03, 0.3, 3.0, 30.0, 300.0] {
+                let exact = form.complex_modulus_pa(&values, omega).unwrap();
+                let off = (series.complex_modulus(omega) - exact).norm() / exact.norm();
+                assert!(off < 5e-3, "{form:?} at {omega}: {off:.1e}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_stretched_exponential_is_met_at_every_time_of_the_window() {
+        for exponent in [0.2, 0.5, 0.9] {
+            let form = Form {
+                law: Law::Kww,
+                branches: 1,
+            };
+            let series = form
+                .series_within(&[10.0, 100.0, 0.5, exponent], (1e-2, 1e1))
+                .unwrap();
+            for t in [0.01_f64, 0.05, 0.3, 2.0, 10.0] {
+                let exact = 10.0 + 100.0 * (-(t / 0.5).powf(exponent)).exp();
+                let branches = series.branches().iter();
+                let own: f64 = branches.map(|b| b.modulus_pa * (-t / b.time_s).exp()).sum();
+                let off = (series.equilibrium_modulus() + own - exact).abs() / 110.0;
+                assert!(off < 2e-3, "{exponent} at {t}: {off:.1e}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_unknown_gives_its_parameter_back() {
+        for scale in [Scale::Odds, Scale::Logarithm(Dimension::Time)] {
+            for value in [1e-3, 0.3, 0.99] {
+                assert!((scale.value(scale.unknown(value)) / value - 1.0).abs() < 1e-12);
+            }
+        }
+    }
+}
