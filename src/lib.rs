@@ -68,6 +68,7 @@
 //! | [`simulation`] | one drive history from its beginning to its end |
 //! | [`measured`] | measured loops: frequency, drift, cycles, corrections, moduli; uses the exact model for the bias of the small-amplitude formula |
 //! | [`identify`] | a material from measured cycles: the sweep as a forward model |
+//! | [`force_curve`] | a law of a material from force over indentation, with its contact point |
 //! | [`figures`] | size of figures on paper, their typefaces, units of normalised axes |
 //! | [`input`] | sweep, scenario and identification files, and the data files they name, to plans |
 //! | `citation` | what to cite for what a result used |
@@ -88,8 +89,8 @@
 
 #[doc(inline)]
 pub use contact_dma_core::{
-    adhesive, contact, cycle, drive, engine, history, identify, indenter, material, measured,
-    numerics, prelude, quantity, reference, simulation, steady, sweep,
+    adhesive, contact, cycle, drive, engine, force_curve, history, identify, indenter, material,
+    measured, numerics, prelude, quantity, reference, simulation, steady, sweep,
 };
 
 #[cfg(feature = "cli")]

@@ -5,12 +5,16 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
+use contact_dma::force_curve::fit_all;
 use contact_dma::identify::{IdentifyError, curves, identify};
 use contact_dma::input::diagnostic::Diagnostics;
 use contact_dma::input::document::Document;
+use contact_dma::input::identify_file::Asked;
 use contact_dma::input::{identify_file, loop_file, setup_file};
 use contact_dma::measured::{Options, Signal};
 use contact_dma::quantity::{Dimension, parse};
+use contact_dma::report::force_curve::CurvesReport;
+use contact_dma::report::identified::Identification;
 use contact_dma::report::identify::IdentifyReport;
 use contact_dma::report::kept_figures::{KEPT, KeptFigures};
 use contact_dma::report::measured::{Analysis, MeasuredRow, columns, files, ordered};
@@ -247,29 +251,36 @@ pub fn identify_material<'py>(
 ) -> PyResult<Files<'py>> {
     let (given, tables) = (source.given(), source.tables());
     let document = source.document(&tables)?;
-    let plan = identify_file::plan_with(&document, &given);
-    let plan = plan.map_err(|found| failure::of_input(&found))?;
+    let asked = identify_file::plan(&document, &given);
+    let asked = asked.map_err(|found| failure::of_input(&found))?;
     let job = Job::default();
-    let made = wait::run_on_threads(py, threads, (&job, None), || {
-        let found = identify(&plan, &job.interrupt)?;
-        let curves = curves(&plan, &found, &job.interrupt)?;
-        Ok((found, curves))
+    let made = wait::run_on_threads(py, threads, (&job, None), || match &asked {
+        Asked::Driven(plan) => {
+            let found = identify(plan, &job.interrupt)?;
+            let curves = curves(plan, &found, &job.interrupt)?;
+            Ok(Identification::of_series(&IdentifyReport {
+                plan,
+                found: &found,
+                curves: &curves,
+            }))
+        }
+        Asked::Curves(plan) => {
+            let fits = fit_all(plan, &job.interrupt, &|| {})?;
+            Ok(Identification::of_curves(&CurvesReport {
+                plan,
+                fits: &fits,
+            }))
+        }
     })?;
-    let (found, curves) = made.map_err(|error| match error {
+    let made = made.map_err(|error| match error {
         IdentifyError::Interrupted => PyKeyboardInterrupt::new_err("interrupted"),
         IdentifyError::NoCycle { .. } | IdentifyError::NoHistory(_) | IdentifyError::NoFit(_) => {
             failure::of_run(error)
         }
         error => PyValueError::new_err(error.to_string()),
     })?;
-    let report = IdentifyReport {
-        plan: &plan,
-        found: &found,
-        curves: &curves,
-    };
-    let block = report.block().map_err(failure::of_run)?;
-    let kept = KeptFigures::of_identification(&report, &block);
-    let files = with_figures(report.files(&block), kept)?;
+    let made = made.map_err(failure::of_run)?;
+    let files = with_figures(made.files, Ok(made.figures))?;
     Ok(bytes(py, files))
 }
 

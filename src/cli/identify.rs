@@ -1,7 +1,7 @@
 //! `contact-dma identify`: from measured cycles to a material.
 
 use std::path::Path;
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
 
@@ -9,11 +9,16 @@ use super::failure::{Ended, Failure};
 use super::flags::RunFlags;
 use super::folders::{folder_of, in_folder, write_kept};
 use super::output::{OutputFormat, tell};
+use super::progress::bar;
 use super::{interruption, meant_for};
-use crate::identify::{IdentifyError, curves, identify};
-use crate::input::identify_file;
-use crate::report::identify::{IdentifyReport, summary};
-use crate::report::kept_figures::KeptFigures;
+use crate::force_curve::fit_all;
+use crate::force_curve::resolved::CurvesPlan;
+use crate::identify::{IdentifyError, IdentifyPlan, curves, identify};
+use crate::input::given::Given;
+use crate::input::identify_file::{self, Asked};
+use crate::report::force_curve::CurvesReport;
+use crate::report::identified::{Identification, IdentificationError};
+use crate::report::identify::IdentifyReport;
 use crate::report::text::Text;
 use crate::sweep::search::run;
 use crate::sweep::store::manifest::{Kind, Target};
@@ -36,7 +41,7 @@ pub(super) struct IdentifyFlags {
 pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let flags = &flags.run;
     let document = meant_for::open(&meant_for::IDENTIFICATION, &flags.file, &flags.set)?;
-    let plan = identify_file::plan(&document)?;
+    let asked = identify_file::plan(&document, &Given::default())?;
     let target = Target {
         folder: &folder_of(flags),
         kind: Kind::Identification,
@@ -46,37 +51,63 @@ pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, 
     target.check()?;
     let interrupt = interruption::keep_finished();
     let pool = run::pool(flags.work.threads()).map_err(Failure::run)?;
-    let made = pool.install(|| {
-        let found = identify(&plan, &interrupt)?;
-        let curves = curves(&plan, &found, &interrupt)?;
-        Ok((found, curves))
-    });
-    let (found, curves) = match made {
+    let (title, made) = match &asked {
+        Asked::Driven(plan) => (&plan.title, pool.install(|| of_series(plan, &interrupt))),
+        Asked::Curves(plan) => {
+            let bar = bar(
+                plan.curves.len(),
+                "{wide_bar} {pos}/{len} curves, {eta} left",
+                flags.work.quiet || plan.curves.len() == 1,
+            );
+            let made = pool.install(|| of_curves(plan, &interrupt, &|| bar.inc(1)));
+            bar.finish_and_clear();
+            (&plan.title, made)
+        }
+    };
+    let made = match made {
         _ if interrupt.load(Ordering::Relaxed) => return Ok(Ended::Interrupted),
         Err(IdentifyError::Interrupted) => return Ok(Ended::Interrupted),
         Err(error) => return Err(refused(&flags.file, &error)),
-        Ok(made) => made,
+        Ok(made) => made.map_err(Failure::run)?,
     };
-    let report = IdentifyReport {
-        plan: &plan,
+    write_kept(&target, made.files, made.figures, !flags.no_figures)?;
+    let missing = made.missing;
+    tell(
+        format,
+        flags.work.quiet,
+        || Ok(made.summary),
+        || {
+            let mut text = Text::from(format!("{title}\n\n"));
+            text.append(made.text);
+            text.append(in_folder("Material and figures", Some(&target)));
+            Ok(text)
+        },
+    )?;
+    Ok(match missing {
+        0 => Ended::Done,
+        _ => Ended::SomeCasesWithoutResult,
+    })
+}
+
+/// What is made of a plan, or why nothing is found; and what could not be told of it.
+type Made = Result<Result<Identification, IdentificationError>, IdentifyError>;
+
+fn of_series(plan: &IdentifyPlan, interrupt: &AtomicBool) -> Made {
+    let found = identify(plan, interrupt)?;
+    let curves = curves(plan, &found, interrupt)?;
+    Ok(Identification::of_series(&IdentifyReport {
+        plan,
         found: &found,
         curves: &curves,
-    };
-    let block = report.block().map_err(Failure::run)?;
-    let kept = KeptFigures::of_identification(&report, &block)?;
-    write_kept(&target, report.files(&block), kept, !flags.no_figures)?;
-    let found = || {
-        let mut value = summary::summary(&report);
-        value["material_toml"] = block.as_str().into();
-        Ok(value)
-    };
-    tell(format, flags.work.quiet, found, || {
-        let mut text = Text::from(format!("{}\n\n", plan.title));
-        text.append(report.text());
-        text.append_apart(report.unknowns().into());
-        text.append(in_folder("Material and figures", Some(&target)));
-        Ok(text)
-    })
+    }))
+}
+
+fn of_curves(plan: &CurvesPlan, interrupt: &AtomicBool, done: &(dyn Fn() + Sync)) -> Made {
+    let fits = fit_all(plan, interrupt, done)?;
+    Ok(Identification::of_curves(&CurvesReport {
+        plan,
+        fits: &fits,
+    }))
 }
 
 /// What is wrong with the data is bad input; a cycle that was not found is not.

@@ -10,15 +10,19 @@ use super::document::{Document, Located, block};
 use super::given::Given;
 use super::harmonic_block::Pressed;
 use super::keys;
-use super::keys::identify::{IDENTIFY, KNOWN_MATERIAL, MEASURED_DRIVE, MODEL_CYCLE};
+use super::keys::identify::{IDENTIFY, KNOWN_MATERIAL, MEASURED_DRIVE, MODEL_CYCLE, PROBE};
 use super::keys::material::BULK_MODULUS;
 use super::{
-    bodies_block, harmonic_block, material_block, measured_history, measured_table, segments_block,
-    solver_block,
+    bodies_block, force_curves, harmonic_block, material_block, measured_history, measured_table,
+    segments_block, solver_block,
 };
 use crate::drive::segments::SEGMENTS;
+use crate::force_curve::resolved::{CURVE, CurvesPlan, LAW, Probe, forms};
+use crate::force_curve::{self, CurvePlan};
 use crate::identify::data::{Measurements, TableColumns};
-use crate::identify::resolved::{APPROACH_ZERO, ATTRACTION, DATA, IDENTIFY_BRANCHES};
+use crate::identify::resolved::{
+    APPROACH_ZERO, ATTRACTION, DATA, IDENTIFY_BRANCHES, resolved_text,
+};
 use crate::identify::{ApproachZero, Driven, IdentifyPlan, Sought, SoughtAttraction};
 use crate::indenter::Indenter;
 use crate::material::{Compressibility, Relaxation};
@@ -28,58 +32,170 @@ use crate::sweep::plan::contact::ContactPlan;
 /// The table of results in a folder of a sweep or of an analysis.
 const TABLE: &str = "sweep.csv";
 
-/// The plan that an identification file asks for.
+/// What an identification file asks for.
+#[derive(Debug, Clone)]
+pub enum Asked {
+    /// A series from cycles or a history under a drive.
+    Driven(Box<IdentifyPlan>),
+    /// A law from force curves.
+    Curves(Box<CurvesPlan>),
+}
+
+impl Asked {
+    /// The plan as the text of an identification file.
+    pub fn resolved_text(&self) -> String {
+        match self {
+            Self::Driven(plan) => resolved_text(plan),
+            Self::Curves(plan) => force_curve::resolved::resolved_text(plan),
+        }
+    }
+}
+
+/// The plan that an identification file asks for, with an indenter for the block that the file leaves out.
 ///
 /// # Errors
 /// Everything that is wrong with the file, at once, each problem with its place and what to write instead.
-pub fn plan(document: &Document) -> Result<IdentifyPlan, Diagnostics> {
-    plan_with(document, &Given::default())
+pub fn plan(document: &Document, given: &Given) -> Result<Asked, Diagnostics> {
+    document.read_whole(|root| {
+        let mut measured = root.table(&IDENTIFY);
+        match measured.as_mut().is_some_and(|table| table.has(&CURVE)) {
+            true => curves_plan(root, measured?, given).map(|plan| Asked::Curves(plan.into())),
+            false => driven_plan(root, measured, given).map(|plan| Asked::Driven(plan.into())),
+        }
+    })
 }
 
-/// The same, with an indenter for the block that the file leaves out.
-///
-/// # Errors
-/// As [`plan`].
-pub fn plan_with(document: &Document, given: &Given) -> Result<IdentifyPlan, Diagnostics> {
-    document.read_whole(|root| {
-        let title = root.value(&keys::TITLE);
-        let compressibility = root.table(&KNOWN_MATERIAL).and_then(known_material);
-        let bodies = bodies_block::read(root);
-        let indenter = given.indenter(root);
-        let drive = root.table(&MEASURED_DRIVE);
-        let drive = drive.and_then(|t| driven(t, bodies.as_ref(), indenter.as_deref()));
-        let measured = root.table(&IDENTIFY);
-        let adhesion = bodies.as_ref().and_then(Bodies::adhesion);
-        let is_attracted = adhesion.is_some_and(|plan| plan.model != AdhesionModel::Dmt);
-        let measured = measured.and_then(|t| measured_block(t, drive.as_ref(), is_attracted));
-        let cycle = root.table_or(&MODEL_CYCLE, IdentifyPlan::CYCLE, |t| block::read(t, None));
-        let layer = bodies.as_ref().and_then(|bodies| bodies.layer);
-        let default = indenter.as_deref();
-        let default = default.map(|indenter| IdentifyPlan::solver(indenter, layer.is_some()));
-        let solver = solver_block::read(root, layer.is_some(), default.unwrap_or_default());
-        let measured = measured?;
-        let bodies = bodies?;
-        Some(IdentifyPlan {
-            title: title?,
-            contact: ContactPlan {
-                layer,
-                indenter: indenter?,
-                adhesion: bodies.adhesion(),
-                material: Sought {
-                    compressibility: compressibility?,
-                    indenter_material: bodies.indenter_material,
-                },
+/// Force curves: they prescribe their indentation themselves.
+fn curves_plan(
+    root: &mut TableReader<'_>,
+    mut table: TableReader<'_>,
+    given: &Given,
+) -> Option<CurvesPlan> {
+    let title = root.value(&keys::TITLE);
+    let compressibility = root.table(&KNOWN_MATERIAL).and_then(known_material);
+    let bodies = bodies_block::read(root);
+    let indenter = given.indenter(root);
+    let probe = root.table_or(&PROBE, Probe::default(), |t| block::read(t, None));
+    let problems = root.problems();
+    for (key, because) in [
+        (
+            &MEASURED_DRIVE,
+            "a force curve prescribes its own indentation",
+        ),
+        (&keys::LAYER, "force curves are of half-spaces"),
+        (
+            &keys::ADHESION,
+            "force curves are fitted without attraction",
+        ),
+    ] {
+        if let Some(place) = root.key_location(key) {
+            let message = format!("`[{}]` beside force curves", key.name);
+            problems
+                .at(&place, message)
+                .because(because)
+                .help("remove this table");
+        }
+    }
+    let place_of_indenter = root.key_location(&keys::INDENTER);
+    if let (Some(place), Some(indenter)) = (place_of_indenter, &indenter)
+        && indenter.axisymmetric().is_none()
+    {
+        let because = indenter.not_axisymmetric_because();
+        let because = format!("the {} {because}", indenter.shape());
+        problems
+            .at(&place, "force curves are of bodies of revolution")
+            .because(because)
+            .help("give a sphere, a cone, a flat punch or a power law");
+        return None;
+    }
+    let (folder, branches) = (table.folder(), table.value(&IDENTIFY_BRANCHES));
+    let files: Option<Located<Vec<String>>> = table.read(&CURVE);
+    let places = table.places_in(CURVE.name);
+    let laws: Option<Option<Vec<String>>> = table.value(&LAW);
+    table.finish();
+    let (probe, files, branches) = (probe?, files?, branches?);
+    let laws = laws?.unwrap_or_else(|| vec!["auto".to_owned()]);
+    let (mut curves, mut names) = (Vec::new(), Vec::new());
+    for (name, location) in files.value.iter().zip(places) {
+        let file = Located {
+            value: name.clone(),
+            path: files.path.clone(),
+            location,
+        };
+        let (name, bytes) = data_file::named(&file, folder, problems)?;
+        let read = force_curves::parse(&name, &bytes, &probe);
+        curves.extend(data_file::accepted(read, &file, problems)?);
+        names.push(name);
+    }
+    Some(CurvesPlan {
+        title: title?,
+        fit: CurvePlan {
+            indenter: indenter?,
+            compressibility: compressibility?,
+            indenter_material: bodies?.indenter_material,
+            forms: forms(&laws, branches),
+            drag_n_s_per_m: probe.drag_n_s_per_m,
+        },
+        probe,
+        laws,
+        branches,
+        files: names,
+        curves,
+    })
+}
+
+fn driven_plan(
+    root: &mut TableReader<'_>,
+    measured: Option<TableReader<'_>>,
+    given: &Given,
+) -> Option<IdentifyPlan> {
+    let title = root.value(&keys::TITLE);
+    let compressibility = root.table(&KNOWN_MATERIAL).and_then(known_material);
+    let bodies = bodies_block::read(root);
+    let indenter = given.indenter(root);
+    if let Some(place) = root.key_location(&PROBE) {
+        root.problems()
+            .at(&place, "`[instrument]` without force curves")
+            .because("tables of cycles and histories are corrected for it already")
+            .help("remove this table, or name force curves with `identify.curve`");
+    }
+    if !root.has(&MEASURED_DRIVE) {
+        root.report_absent(&MEASURED_DRIVE);
+    }
+    let drive = root.table_or(&MEASURED_DRIVE, None, |t| {
+        driven(t, bodies.as_ref(), indenter.as_deref()).map(Some)
+    });
+    let drive = drive.flatten();
+    let adhesion = bodies.as_ref().and_then(Bodies::adhesion);
+    let is_attracted = adhesion.is_some_and(|plan| plan.model != AdhesionModel::Dmt);
+    let measured = measured.and_then(|t| measured_block(t, drive.as_ref(), is_attracted));
+    let cycle = root.table_or(&MODEL_CYCLE, IdentifyPlan::CYCLE, |t| block::read(t, None));
+    let layer = bodies.as_ref().and_then(|bodies| bodies.layer);
+    let default = indenter.as_deref();
+    let default = default.map(|indenter| IdentifyPlan::solver(indenter, layer.is_some()));
+    let solver = solver_block::read(root, layer.is_some(), default.unwrap_or_default());
+    let measured = measured?;
+    let bodies = bodies?;
+    Some(IdentifyPlan {
+        title: title?,
+        contact: ContactPlan {
+            layer,
+            indenter: indenter?,
+            adhesion: bodies.adhesion(),
+            material: Sought {
+                compressibility: compressibility?,
+                indenter_material: bodies.indenter_material,
             },
-            solver: solver?,
-            drive: drive?,
-            branches: measured.branches,
-            measurements: measured.measurements,
-            data: measured.file,
-            approach_zero: measured.approach_zero,
-            attraction: measured.attraction,
-            columns: measured.columns,
-            cycle: cycle?,
-        })
+        },
+        solver: solver?,
+        drive: drive?,
+        branches: measured.branches,
+        measurements: measured.measurements,
+        data: measured.file,
+        approach_zero: measured.approach_zero,
+        attraction: measured.attraction,
+        columns: measured.columns,
+        cycle: cycle?,
     })
 }
 

@@ -41,6 +41,7 @@ pub mod dynamic;
 pub mod field_file;
 pub(crate) mod figures_block;
 mod file_kind;
+mod force_curves;
 pub mod given;
 mod harmonic_block;
 pub mod identify_file;

@@ -8,6 +8,7 @@ use super::ReportError;
 use super::caption::Setting;
 use super::figure::press::{Files, Press};
 use super::figure::{self, Figure, Picture};
+use super::force_curve::CurvesReport;
 use super::identify::IdentifyReport;
 use super::measured::Analysis;
 use super::page::{self, Pictures};
@@ -70,6 +71,20 @@ impl KeptFigures {
         let figures = figure::identify::figures(report);
         Self::with_page(&figures, &Setting::default(), |pictures, _| {
             page::identify::page(report, &figures, block, pictures)
+        })
+    }
+
+    /// The same of laws of force curves, with the block of the material of a single one.
+    ///
+    /// # Errors
+    /// [`ReportError`] naming the page.
+    pub fn of_curves(
+        report: &CurvesReport<'_>,
+        block: Option<&str>,
+    ) -> Result<(Self, Vec<String>), ReportError> {
+        let figures = figure::force_curve::figures(report);
+        Self::with_page(&figures, &Setting::default(), |pictures, _| {
+            page::force_curve::page(report, &figures, block, pictures)
         })
     }
 

@@ -3,7 +3,7 @@
 //! The feature `tables` has columns and tables alone, the feature `report` figures and pages too.
 //!
 //! Its parts from top to bottom, each of which may use those above it: numbers, words, text that is laid out for a terminal; peaks; lines over the surface;
-//! tables, and the quantities that are their columns, by which they are read back too; tables of sweeps and scenarios; captions; comparison; chart; figure; material; page; figures that are kept; summary and results for
+//! tables, and the quantities that are their columns, by which they are read back too; tables of sweeps and scenarios; captions; comparison; chart; figure; material; page; figures that are kept; what an identification leaves; summary and results for
 //! programs; terminal; what a computation would cost; scenario. A test holds them to that.
 //!
 //! ```
@@ -40,8 +40,11 @@ pub mod dynamic;
 #[cfg(feature = "report")]
 pub mod figure;
 pub mod fit;
+pub mod force_curve;
 #[cfg(feature = "report")]
 pub mod forecast;
+#[cfg(feature = "report")]
+pub mod identified;
 pub mod identify;
 #[cfg(feature = "report")]
 pub mod kept_figures;

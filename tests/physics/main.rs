@@ -16,6 +16,7 @@ mod direct_cycle;
 mod elastic_contact;
 mod energy_balance;
 mod error_bars;
+mod force_curves;
 mod fractional;
 mod half_space_work;
 mod history_work;

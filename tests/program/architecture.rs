@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules from top to bottom: those of the package in `src/core`, then those of the program.
-const MODULES: [&str; 25] = [
+const MODULES: [&str; 26] = [
     "transforms",
     "numerics",
     "quantity",
@@ -22,6 +22,7 @@ const MODULES: [&str; 25] = [
     "simulation",
     "measured",
     "identify",
+    "force_curve",
     "figures",
     "input",
     "citation",
@@ -36,7 +37,7 @@ const MODULES: [&str; 25] = [
 const SWEEP: [&str; 6] = ["plan", "record", "store", "case", "share", "search"];
 
 /// Parts of the module `report` from top to bottom.
-const REPORT: [&str; 39] = [
+const REPORT: [&str; 41] = [
     "number",
     "words",
     "text",
@@ -52,6 +53,7 @@ const REPORT: [&str; 39] = [
     "dynamic",
     "measured",
     "identify",
+    "force_curve",
     "samples",
     "caption",
     "comparison",
@@ -64,6 +66,7 @@ const REPORT: [&str; 39] = [
     "material",
     "page",
     "kept_figures",
+    "identified",
     "summary",
     "sweep_tables",
     "scenario_tables",

@@ -4,7 +4,7 @@ use crate::prelude::*;
 use std::sync::OnceLock;
 
 use crate::refused;
-use contact_dma::identify;
+use contact_dma::input::given::Given;
 use contact_dma::input::keys::{self, FileKind};
 use contact_dma::input::{identify_file, scenario_file, schema, sweep_file};
 use contact_dma::simulation::scenario;
@@ -193,7 +193,7 @@ fn resolved(kind: FileKind, text: &str) -> Result<String, String> {
             scenario_file::plan(&document).map(|plan| scenario::resolved_text(&plan))
         }
         FileKind::Identify => {
-            identify_file::plan(&document).map(|plan| identify::resolved::resolved_text(&plan))
+            identify_file::plan(&document, &Given::default()).map(|asked| asked.resolved_text())
         }
         FileKind::Setup => unreachable!("a setup is not resolved: `setup_file` has its own tests"),
     };

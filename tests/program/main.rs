@@ -33,6 +33,7 @@ mod examples;
 mod fields;
 mod figures;
 mod folders;
+mod force_curves;
 mod fuzz_inputs;
 mod guides;
 mod identify;

@@ -5,8 +5,11 @@ use crate::prelude::*;
 use std::fmt::Display;
 
 use crate::input_keys::assert_current;
+use contact_dma::force_curve::fit_all;
 use contact_dma::identify;
 use contact_dma::input::diagnostic::{Diagnostics, Styling};
+use contact_dma::input::given::Given;
+use contact_dma::input::identify_file::Asked;
 use contact_dma::input::{
     dynamic, identify_file, loop_file, scenario_file, setup_file, sweep_file,
 };
@@ -27,11 +30,13 @@ const KINDS: [(&str, &str, Read); 6] = [
         Simulation::new(plan).map(drop).map_err(line)
     }),
     ("identify", "toml", |file| {
-        let plan = identify_file::plan(&document(file)?).map_err(rendered)?;
-        let identified = identify::identify(&plan, &AtomicBool::new(false));
-        identified
-            .map(drop)
-            .map_err(|why| line(format!("{}: {why}", file.display())))
+        let asked = identify_file::plan(&document(file)?, &Given::default()).map_err(rendered)?;
+        let never = AtomicBool::new(false);
+        let identified = match &asked {
+            Asked::Driven(plan) => identify::identify(plan, &never).map(drop),
+            Asked::Curves(plan) => fit_all(plan, &never, &|| {}).map(drop),
+        };
+        identified.map_err(|why| line(format!("{}: {why}", file.display())))
     }),
     ("setup", "toml", |file| {
         let setup = setup_file::setup(&document(file)?);

@@ -13,9 +13,48 @@
 //! 5. Laws are compared by the criterion of G. Schwarz (Ann. Statist. 6 (1978) 461). The band of E* has in it what the laws that are
 //!    nearly as good say otherwise, each by its weight.
 
-pub mod record;
 mod fit;
+mod found;
+mod problem;
+pub mod record;
+pub mod resolved;
 mod springs;
+mod touch;
 
-pub use fit::{CurveError, CurveFit, CurvePlan, Estimate, FittedLaw, Nuisance, fit};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
+
+pub use fit::{CurveError, CurvePlan, fit};
+pub use found::{CurveFit, Estimate, FittedLaw};
 pub use record::ForceCurve;
+pub use touch::Nuisance;
+
+use crate::identify::IdentifyError;
+use resolved::CurvesPlan;
+
+/// All curves of a plan, side by side; `done` is told after each.
+///
+/// # Errors
+/// [`IdentifyError`] where it was interrupted, and where no curve could be fitted.
+pub fn fit_all(
+    plan: &CurvesPlan,
+    interrupt: &AtomicBool,
+    done: &(dyn Fn() + Sync),
+) -> Result<Vec<Result<CurveFit, CurveError>>, IdentifyError> {
+    let curves = plan.curves.par_iter();
+    let fits = curves.map(|curve| {
+        let found = fit(&plan.fit, curve, interrupt);
+        done();
+        found
+    });
+    let fits: Vec<Result<CurveFit, CurveError>> = fits.collect();
+    match &fits[..] {
+        _ if interrupt.load(Ordering::Relaxed) => Err(IdentifyError::Interrupted),
+        [Err(error), ..] if fits.iter().all(Result::is_err) => Err(IdentifyError::NoLaw {
+            curve: plan.curves[0].name.clone(),
+            why: error.to_string(),
+        }),
+        _ => Ok(fits),
+    }
+}

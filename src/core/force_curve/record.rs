@@ -75,7 +75,8 @@ impl ForceCurve {
                 corner = next;
             }
             let most = SINCE_CORNER * (self.time_s[from] - self.time_s[corner]);
-            let is_short = |to: &usize| corner == 0 || self.time_s[to - 1] - self.time_s[from] <= most;
+            let is_short =
+                |to: &usize| corner == 0 || self.time_s[to - 1] - self.time_s[from] <= most;
             let end = (from + size).min(corners.peek().copied().unwrap_or(count));
             let to = (from + 1..=end).take_while(is_short).last();
             let to = to.unwrap_or(from + 1);
@@ -135,7 +136,9 @@ fn smooth(time_s: &[f64], signal: &[f64]) -> (Vec<f64>, Vec<usize>) {
         let more: Vec<usize> = (knots.windows(2))
             .filter(|ends| ends[1] - ends[0] > 1)
             .filter(|ends| {
-                let off = signal[ends[0]..ends[1]].iter().zip(&fitted[ends[0]..ends[1]]);
+                let off = signal[ends[0]..ends[1]]
+                    .iter()
+                    .zip(&fitted[ends[0]..ends[1]]);
                 let off: Vec<f64> = off.map(|(own, fitted)| (own - fitted) / noise).collect();
                 !is_noise(&off)
             })
@@ -165,7 +168,10 @@ fn settle(time_s: &[f64], signal: &[f64], noise: f64, knots: &mut Vec<usize>) {
     let off = |around: &[usize]| -> Vec<f64> {
         let fitted = through_knots(time_s, signal, around);
         let own = &signal[around[0]..=around[around.len() - 1]];
-        own.iter().zip(&fitted).map(|(own, fitted)| (own - fitted) / noise).collect()
+        own.iter()
+            .zip(&fitted)
+            .map(|(own, fitted)| (own - fitted) / noise)
+            .collect()
     };
     let around = |knots: &[usize], at: usize| (at.saturating_sub(2), (at + 3).min(knots.len()));
     let mut at = 1;
@@ -174,9 +180,9 @@ fn settle(time_s: &[f64], signal: &[f64], noise: f64, knots: &mut Vec<usize>) {
         let mut without = knots[from..to].to_vec();
         without.remove(at - from);
         let left = off(&without);
-        let all_noise = without.windows(2).all(|ends| {
-            is_noise(&left[ends[0] - without[0]..ends[1] - without[0]])
-        });
+        let all_noise = without
+            .windows(2)
+            .all(|ends| is_noise(&left[ends[0] - without[0]..ends[1] - without[0]]));
         match all_noise {
             true => {
                 knots.remove(at);
@@ -230,7 +236,11 @@ fn through_knots(time_s: &[f64], signal: &[f64], knots: &[usize]) -> Vec<f64> {
         (vec![0.0; count], vec![0.0; count], vec![0.0; count]);
     let share = |piece: usize, k: usize| {
         let (from, to) = (time_s[knots[piece]], time_s[knots[piece + 1]]);
-        if to > from { (time_s[k] - from) / (to - from) } else { 0.0 }
+        if to > from {
+            (time_s[k] - from) / (to - from)
+        } else {
+            0.0
+        }
     };
     // Every sample is of the piece that begins at or before it.
     let pieces = || {

@@ -52,91 +52,161 @@ impl Springs {
         2.0 * self.width_m * pressed.sum::<f64>()
     }
 
-    /// The force (N) at every point of a contact of this relaxation modulus, whose indentation is linear between them; `None` where it is deeper than
-    /// the springs reach.
+    /// The force (N) at every point of a contact of this relaxation modulus, whose indentation is linear between them; `None` where it is
+    /// deeper than the springs reach.
     pub(super) fn response(
         &self,
         contact: &Relaxation,
         time_s: &[f64],
         indentation_m: &[f64],
     ) -> Option<Vec<f64>> {
-        let branches = contact.branches();
-        let equilibrium = contact.equilibrium_modulus();
-        let springs = self.gaps_m.len();
-        let mut displacements = vec![0.0; springs];
-        // Of each branch its force in every spring.
-        let mut memory = vec![0.0; springs * branches.len()];
-        let (mut held, mut changes) = (vec![0.0; springs], vec![0.0; springs]);
-        let mut weights = vec![(0.0, 0.0); branches.len()];
-        let mut late: Vec<(usize, f64, f64)> = Vec::new();
+        let mut march = March::new(self, contact);
         let mut force_n = Vec::with_capacity(time_s.len());
-        let mut before: Option<(f64, f64)> = None;
-        let mut last_step_s = f64::NAN;
-        let mut touched = 0;
-        for (&t, &depth) in time_s.iter().zip(indentation_m) {
-            if depth > self.deepest_m && !self.has_end {
+        for (&t, &depth_m) in time_s.iter().zip(indentation_m) {
+            if depth_m > self.deepest_m && !self.has_end {
                 return None;
             }
-            let step_s = t - before.map_or(t, |(before, _)| before);
-            if step_s != last_step_s {
-                for (weight, branch) in weights.iter_mut().zip(branches) {
-                    let ratio = step_s / branch.time_s;
-                    *weight = ((-ratio).exp(), branch.modulus_pa * mean_of_decay(ratio));
-                }
-                last_step_s = step_s;
-            }
-            let at_once = equilibrium + weights.iter().map(|(_, gained)| gained).sum::<f64>();
-            touched = touched.max(self.gaps_m.partition_point(|gap| *gap < depth));
-            for (held, u) in held[..touched].iter_mut().zip(&displacements) {
-                *held = equilibrium * u;
-            }
-            for (own, (left, _)) in memory.chunks_exact_mut(springs).zip(&weights) {
-                for (h, held) in own[..touched].iter_mut().zip(&mut held) {
-                    *h *= left;
-                    *held += *h;
-                }
-            }
-            late.clear();
-            let mut sum = 0.0;
-            for j in 0..touched {
-                let change = depth - self.gaps_m[j] - displacements[j];
-                let force = held[j] + at_once * change;
-                changes[j] = change;
-                if force <= 0.0 {
-                    changes[j] = -held[j] / at_once;
-                    continue;
-                }
-                let before_m = before.map_or(0.0, |(_, depth)| depth) - self.gaps_m[j];
-                let gap_m = displacements[j] - before_m;
-                if before.is_some() && change > 0.0 && gap_m > 1e-12 * self.deepest_m {
-                    // It was out of contact, and is pressed for a part of the step.
-                    late.push((j, change, step_s * change / (change + gap_m)));
-                    changes[j] = 0.0;
-                } else {
-                    sum += force;
-                }
-            }
-            for (own, (_, gained)) in memory.chunks_exact_mut(springs).zip(&weights) {
-                for (h, change) in own[..touched].iter_mut().zip(&changes) {
-                    *h += gained * change;
-                }
-            }
-            for (u, change) in displacements[..touched].iter_mut().zip(&changes) {
-                *u += change;
-            }
-            for &(j, change, pressed_s) in &late {
-                displacements[j] += change;
-                sum += held[j] + equilibrium * change;
-                for (own, branch) in memory.chunks_exact_mut(springs).zip(branches) {
-                    let more = branch.modulus_pa * mean_of_decay(pressed_s / branch.time_s);
-                    own[j] += more * change;
-                    sum += more * change;
-                }
-            }
-            force_n.push(2.0 * self.width_m * sum);
-            before = Some((t, depth));
+            force_n.push(2.0 * self.width_m * march.step(t, depth_m));
         }
         Some(force_n)
+    }
+}
+
+/// What the springs remember while an indentation goes on.
+struct March<'a> {
+    springs: &'a Springs,
+    contact: &'a Relaxation,
+    /// Of every spring.
+    displacements_m: Vec<f64>,
+    /// Of each branch its force in every spring.
+    memory: Vec<f64>,
+    /// Of every spring in a step: the force if it did not move, and by how much it moves.
+    held: Vec<f64>,
+    changes: Vec<f64>,
+    /// Of every branch in a step: what is left of its force, and what a change adds to it.
+    weights: Vec<(f64, f64)>,
+    /// Springs that come into contact within a step: which, by how much each moves, and for how long (s) it is pressed.
+    late: Vec<(usize, f64, f64)>,
+    /// Time (s) and indentation (m).
+    before: Option<(f64, f64)>,
+    last_step_s: f64,
+    /// Springs that have been touched.
+    touched: usize,
+}
+
+impl<'a> March<'a> {
+    fn new(springs: &'a Springs, contact: &'a Relaxation) -> Self {
+        let (count, branches) = (springs.gaps_m.len(), contact.branches().len());
+        Self {
+            springs,
+            contact,
+            displacements_m: vec![0.0; count],
+            memory: vec![0.0; count * branches],
+            held: vec![0.0; count],
+            changes: vec![0.0; count],
+            weights: vec![(0.0, 0.0); branches],
+            late: Vec::with_capacity(count),
+            before: None,
+            last_step_s: f64::NAN,
+            touched: 0,
+        }
+    }
+
+    /// Goes on to a time (s) and an indentation (m); the sum of the forces of all springs over their width.
+    fn step(&mut self, t: f64, depth_m: f64) -> f64 {
+        let step_s = t - self.before.map_or(t, |(before, _)| before);
+        self.weigh(step_s);
+        let gaps_m = &self.springs.gaps_m;
+        self.touched = self
+            .touched
+            .max(gaps_m.partition_point(|gap| *gap < depth_m));
+        self.hold();
+        let sum = self.press(depth_m, step_s) + self.press_late();
+        self.before = Some((t, depth_m));
+        sum
+    }
+
+    fn weigh(&mut self, step_s: f64) {
+        if step_s == self.last_step_s {
+            return;
+        }
+        for (weight, branch) in self.weights.iter_mut().zip(self.contact.branches()) {
+            let ratio = step_s / branch.time_s;
+            *weight = ((-ratio).exp(), branch.modulus_pa * mean_of_decay(ratio));
+        }
+        self.last_step_s = step_s;
+    }
+
+    /// What is left of all forces where nothing moves.
+    fn hold(&mut self) {
+        let (touched, count) = (self.touched, self.held.len());
+        let equilibrium = self.contact.equilibrium_modulus();
+        for (held, u) in self.held[..touched].iter_mut().zip(&self.displacements_m) {
+            *held = equilibrium * u;
+        }
+        for (own, (left, _)) in self.memory.chunks_exact_mut(count).zip(&self.weights) {
+            for (h, held) in own[..touched].iter_mut().zip(&mut self.held) {
+                *h *= left;
+                *held += *h;
+            }
+        }
+    }
+
+    /// Moves every spring with the indenter, or as it does without force; those that come into contact within the step are left for later.
+    fn press(&mut self, depth_m: f64, step_s: f64) -> f64 {
+        let (touched, count) = (self.touched, self.held.len());
+        let gained = self.weights.iter().map(|(_, gained)| gained);
+        let at_once = self.contact.equilibrium_modulus() + gained.sum::<f64>();
+        self.late.clear();
+        let mut sum = 0.0;
+        for j in 0..touched {
+            let (gap_m, u) = (self.springs.gaps_m[j], self.displacements_m[j]);
+            let change = depth_m - gap_m - u;
+            let force = self.held[j] + at_once * change;
+            if force <= 0.0 {
+                self.changes[j] = -self.held[j] / at_once;
+                continue;
+            }
+            let open_m = self
+                .before
+                .map_or(0.0, |(_, before_m)| u + gap_m - before_m);
+            if change > 0.0 && open_m > 1e-12 * self.springs.deepest_m {
+                let pressed_s = step_s * change / (change + open_m);
+                self.late.push((j, change, pressed_s));
+                self.changes[j] = 0.0;
+            } else {
+                self.changes[j] = change;
+                sum += force;
+            }
+        }
+        for (own, (_, gained)) in self.memory.chunks_exact_mut(count).zip(&self.weights) {
+            for (h, change) in own[..touched].iter_mut().zip(&self.changes) {
+                *h += gained * change;
+            }
+        }
+        for (u, change) in self.displacements_m[..touched]
+            .iter_mut()
+            .zip(&self.changes)
+        {
+            *u += change;
+        }
+        sum
+    }
+
+    fn press_late(&mut self) -> f64 {
+        let count = self.held.len();
+        let mut sum = 0.0;
+        for &(j, change, pressed_s) in &self.late {
+            self.displacements_m[j] += change;
+            sum += self.held[j] + self.contact.equilibrium_modulus() * change;
+            let branches = self.contact.branches();
+            for (own, branch) in self.memory.chunks_exact_mut(count).zip(branches) {
+                let more = branch.modulus_pa * mean_of_decay(pressed_s / branch.time_s) * change;
+                own[j] += more;
+                sum += more;
+            }
+        }
+        sum
     }
 }
 

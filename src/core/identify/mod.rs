@@ -333,6 +333,8 @@ pub enum IdentifyError {
         "there is no {column} at {place}: the indenter makes it unbounded, or the contact opens; leave these cells empty"
     )]
     Undefined { place: String, column: &'static str },
+    #[error("no law was found of {curve}: {why}")]
+    NoLaw { curve: String, why: String },
     #[error("no series could be fitted: {0}")]
     NoFit(&'static str),
     #[error("interrupted")]

@@ -4,7 +4,6 @@ use crate::identify::{ApproachZero, Driven, IdentifyPlan, MOST_BRANCHES, SoughtA
 use crate::keys;
 use crate::quantity::block::Block as _;
 use crate::quantity::key::Kind;
-use crate::quantity::rows::{Rows, table};
 use crate::quantity::setting::{Table, Value, document};
 use crate::sweep::plan::resolved::{compressibility, indenter_material_text};
 
@@ -21,11 +20,10 @@ keys! {
     ATTRACTION = "attraction", Kind::Word(SoughtAttraction::WORDS), or SoughtAttraction::Known;
 }
 
-/// The `[identify]` block.
-pub static IDENTIFY_TABLE: Rows = table(
-    " What was measured.",
-    &[&[DATA, IDENTIFY_BRANCHES, APPROACH_ZERO, ATTRACTION]],
-);
+/// How many branches, in a resolved file.
+pub(crate) fn branches_setting(branches: Option<usize>) -> Value {
+    branches.map_or("auto".into(), Value::from)
+}
 
 /// The plan as the text of an identification file.
 pub fn resolved_text(plan: &IdentifyPlan) -> String {
@@ -39,7 +37,7 @@ pub fn resolved_text(plan: &IdentifyPlan) -> String {
     };
     let identify = Table::new("identify")
         .and(DATA.setting(plan.data.clone()))
-        .and(IDENTIFY_BRANCHES.setting(plan.branches.map_or("auto".into(), Value::from)))
+        .and(IDENTIFY_BRANCHES.setting(branches_setting(plan.branches)))
         .and(APPROACH_ZERO.setting(plan.approach_zero));
     let identify = match plan.attraction {
         SoughtAttraction::Known => identify,

@@ -51,7 +51,6 @@ mod search;
 
 use rayon::prelude::*;
 
-use crate::numerics::random::Noise;
 use super::spectrum::Series;
 use super::tabulated::Tabulated;
 use super::{
@@ -60,6 +59,7 @@ use super::{
 };
 use crate::numerics::nnls::NnlsError;
 use crate::numerics::order::upper_median;
+use crate::numerics::random::Noise;
 use report::FAR_FROM_EQUILIBRIUM;
 pub use report::{FitRemark, FitReport, Misfit};
 use search::{Open, Search};

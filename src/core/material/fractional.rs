@@ -333,10 +333,7 @@ impl Fractional {
     ///
     /// # Errors
     /// A sum that overflows.
-    pub fn within(
-        &self,
-        (shortest_s, longest_s): (f64, f64),
-    ) -> Result<Relaxation, MaterialError> {
+    pub fn within(&self, (shortest_s, longest_s): (f64, f64)) -> Result<Relaxation, MaterialError> {
         let branches = match self.is_classical() {
             true => vec![RelaxationBranch {
                 modulus_pa: self.stiffness_pa,

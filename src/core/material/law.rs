@@ -202,9 +202,7 @@ impl Form {
         // A springpot that has this modulus in the middle.
         let springpot = |exponent: f64| modulus_pa * middle.powf(exponent);
         let values: Vec<Vec<f64>> = match self.law {
-            Law::PowerLaw => [0.05, 0.2, 0.5]
-                .map(|a| vec![springpot(a), a])
-                .to_vec(),
+            Law::PowerLaw => [0.05, 0.2, 0.5].map(|a| vec![springpot(a), a]).to_vec(),
             Law::StandardSolid => [early, middle, late]
                 .map(|time| vec![half, modulus_pa, time])
                 .to_vec(),
@@ -262,7 +260,9 @@ fn stretched(
     let from = (shortest_s / BEYOND).min(time_s / BEYOND).ln();
     let to = (longest_s * BEYOND).max(time_s * BEYOND).ln();
     let count = ((to - from) / GRID).ceil() as usize;
-    let times: Vec<f64> = (0..=count).map(|k| (from + GRID * k as f64).exp()).collect();
+    let times: Vec<f64> = (0..=count)
+        .map(|k| (from + GRID * k as f64).exp())
+        .collect();
     let samples: Vec<f64> = (0..2 * count)
         .map(|k| (from + 0.5 * GRID * k as f64).exp())
         .filter(|t| (0.5 * shortest_s..=2.0 * longest_s).contains(t))

@@ -1,7 +1,7 @@
 //! Random numbers that are the same in every run: of a seed, and of a number within it.
 
 /// Deviates from a seed: splitmix64 (G. L. Steele, D. Lea and C. H. Flood 2014) and the transform of Box and Muller.
-pub(crate) struct Noise(pub(super) u64);
+pub(crate) struct Noise(pub(crate) u64);
 
 impl Noise {
     /// The stream of this number, among those of one seed: the same whatever became of the others.

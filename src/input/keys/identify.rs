@@ -4,7 +4,8 @@ use super::material::{BULK_MODULUS, POISSON_RATIO};
 use super::{ADHESION, INDENTER, LAYER, SOLVER, TITLE};
 use crate::drive::segments::SEGMENTS;
 use crate::drive::{PRESCRIBES, harmonic};
-use crate::identify::resolved::IDENTIFY_TABLE;
+use crate::force_curve::resolved::{CURVE, LAW, Probe};
+use crate::identify::resolved::{APPROACH_ZERO, ATTRACTION, DATA, IDENTIFY_BRANCHES};
 use crate::quantity::block::Block as _;
 use crate::quantity::key::{Key, Kind};
 use crate::quantity::rows::{Others, Rows, table};
@@ -16,6 +17,12 @@ static MATERIAL_TABLE: Rows = Rows {
     others: Others::OneList(&[&[&[POISSON_RATIO]], &[&[BULK_MODULUS]]]),
 };
 use contact_dma_core::keys;
+
+static IDENTIFY_TABLE: Rows = Rows {
+    means: " What was measured: cycles or a history under a drive that is known, or force curves, which have their own.",
+    keys: &[&[IDENTIFY_BRANCHES]],
+    others: Others::OneList(&[&[&[DATA, APPROACH_ZERO, ATTRACTION]], &[&[CURVE, LAW]]]),
+};
 
 static DRIVEN: Rows = Rows {
     means: " Of measured cycles an oscillation; rows with `drive_mean` and `drive_amplitude` have their own. Of a measured history \
@@ -29,8 +36,10 @@ keys! {
     IDENTIFY = "identify", Kind::Table(&IDENTIFY_TABLE);
     /// What is known of the material.
     KNOWN_MATERIAL = "material", Kind::Table(&MATERIAL_TABLE);
-    /// The oscillation that the cycles were measured under, or the segments of a history.
-    MEASURED_DRIVE = "drive", Kind::Table(&DRIVEN);
+    /// The oscillation that the cycles were measured under, or the segments of a history; force curves have none.
+    MEASURED_DRIVE = "drive", Kind::Table(&DRIVEN), optional;
+    /// The instrument of force curves.
+    PROBE = "instrument", Kind::Table(&Probe::ROWS), optional;
     /// How the cycles of the model are resolved.
     MODEL_CYCLE = "cycle", Kind::Table(&CyclePlan::ROWS), optional;
 }
@@ -43,6 +52,7 @@ const KEYS: &[Key] = &[
     INDENTER,
     ADHESION,
     MEASURED_DRIVE,
+    PROBE,
     MODEL_CYCLE,
     SOLVER,
 ];

@@ -158,9 +158,21 @@ const LOSS: Banded = (|band| band.loss_pa, |band| band.loss_factor);
 /// Storage and loss modulus with their bands, and below them how wide these are relative to the moduli.
 fn moduli(report: &IdentifyReport<'_>) -> Figure {
     let omegas = tables::frequencies(report).into_iter();
-    let bands: Vec<_> = omegas
-        .map(|omega| (omega, report.found.band(omega)))
-        .collect();
+    let bands = omegas.map(|omega| (omega, report.found.band(omega)));
+    let bands: Vec<_> = bands.collect();
+    moduli_of(
+        &bands,
+        report.found.window_rad_per_s,
+        tables::moduli(report),
+    )
+}
+
+/// The same of bands over angular frequencies (rad/s) within a window and beyond it, with their table.
+pub(super) fn moduli_of(
+    bands: &[(f64, ModulusBand)],
+    (first, last): (f64, f64),
+    data: Vec<u8>,
+) -> Figure {
     let line = |(value, open): Banded| {
         Trace::line(bands.iter().map(|(omega, b)| {
             // What is not determined fills the frame, not the axis.
@@ -175,7 +187,6 @@ fn moduli(report: &IdentifyReport<'_>) -> Figure {
         Trace::line(points.filter(|(_, half)| *half > 0.0))
     };
     let (low, high) = range(bands.iter().map(|(omega, _)| *omega));
-    let (first, last) = report.found.window_rad_per_s;
     let frame = |y: Quantity, [storage, loss]: [Trace; 2], [of_first, of_last]: [&str; 2]| {
         Plot::new(Quantity::frequency(&Units::default()), y)
             .traces([
@@ -200,6 +211,6 @@ fn moduli(report: &IdentifyReport<'_>) -> Figure {
     ];
     let caption = Caption::new("Storage modulus E′ and loss modulus E″ of the identified material, and how well they are known")
         .say("Shaded: 95 % bands, drawn up to a factor of five. Below: half widths of the bands.")
-        .say("Dashed: first and last measured frequency, beyond which the series is an extrapolation.");
-    Figure::of("moduli", &frames, caption, &Units::default()).with_data(tables::moduli(report))
+        .say("Dashed: first and last measured frequency, beyond which they are an extrapolation.");
+    Figure::of("moduli", &frames, caption, &Units::default()).with_data(data)
 }

@@ -12,6 +12,7 @@ pub mod dynamic;
 pub mod energy_loss;
 pub mod equivalent;
 pub mod fit;
+pub mod force_curve;
 pub mod harmonic_map;
 pub mod history;
 pub mod identify;

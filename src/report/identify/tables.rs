@@ -1,6 +1,7 @@
 //! The tables of an identification: measured and computed numbers, and the moduli with their bands.
 
 use super::IdentifyReport;
+use crate::identify::ModulusBand;
 use crate::report::table::{Cell, cells, csv};
 
 /// Points of the moduli over a decade, and how far beyond the data they go.
@@ -37,7 +38,7 @@ pub fn fit(report: &IdentifyReport<'_>) -> Vec<u8> {
 }
 
 /// A frequency, the moduli there, and the ends of their 95 % bands.
-pub(super) const MODULI: [&str; 7] = [
+pub(in crate::report) const MODULI: [&str; 7] = [
     "angular_frequency_rad_per_s",
     "storage_modulus_pa",
     "storage_modulus_low_pa",
@@ -49,7 +50,11 @@ pub(super) const MODULI: [&str; 7] = [
 
 /// The values of [`MODULI`] at an angular frequency (rad/s).
 pub(super) fn moduli_at(report: &IdentifyReport<'_>, omega: f64) -> [f64; 7] {
-    let band = report.found.band(omega);
+    with_ends(omega, &report.found.band(omega))
+}
+
+/// The values of [`MODULI`] of a band.
+pub(in crate::report) fn with_ends(omega: f64, band: &ModulusBand) -> [f64; 7] {
     let of = |value: f64, factor: f64| [value, value / factor, value * factor];
     let [storage, storage_low, storage_high] = of(band.storage_pa, band.storage_factor);
     let [loss, loss_low, loss_high] = of(band.loss_pa, band.loss_factor);
@@ -75,7 +80,11 @@ pub fn moduli(report: &IdentifyReport<'_>) -> Vec<u8> {
 
 /// Angular frequencies (rad/s) for smooth curves of the moduli.
 pub fn frequencies(report: &IdentifyReport<'_>) -> Vec<f64> {
-    let (lowest, highest) = report.found.window_rad_per_s;
+    over(report.found.window_rad_per_s)
+}
+
+/// The same over a window and a little beyond.
+pub(in crate::report) fn over((lowest, highest): (f64, f64)) -> Vec<f64> {
     let (low, high) = (lowest / BEYOND, highest * BEYOND);
     let count = (PER_DECADE * (high / low).log10()).ceil().max(1.0);
     (0..=count as usize)

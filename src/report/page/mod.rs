@@ -6,6 +6,7 @@ mod cases_table;
 mod compact;
 pub mod comparison;
 pub mod dynamic;
+pub mod force_curve;
 pub mod frame;
 pub(super) mod how;
 mod html;

@@ -1,0 +1,219 @@
+//! A curve as a least squares problem for any law.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use nalgebra::{DMatrix, DVector};
+
+use super::fit::CurvePlan;
+use super::record::Points;
+use super::springs::Springs;
+use super::touch::{Nuisance, Touch, nuisances};
+use crate::material::law::{Form, Scale};
+use crate::numerics::levenberg_marquardt::{Ending, Problem, Solution, minimise};
+use crate::quantity::Dimension;
+
+const EXACTLY: Ending = Ending {
+    iterations: 30,
+    enough: 1e-5,
+};
+
+/// The widest that an unknown may go: a modulus of nothing, an exponent of nearly zero or one.
+pub(super) const WIDEST_LOGARITHM: f64 = 80.0;
+const WIDEST_ODDS: f64 = 7.0;
+
+/// Steps of unknowns for derivatives; that of the contact point is a part of the indentation.
+const STEP: f64 = 0.01;
+const STEP_OF_CONTACT: f64 = 2e-3;
+
+/// The same on the way to the solution, to one side alone.
+const FORWARD: f64 = 1e-3;
+
+/// By how many times a start may be farther from the curve than the best and be followed too.
+const NEARLY: f64 = 1.5;
+
+/// A curve as a least squares problem for any law.
+pub(super) struct Fitted<'a> {
+    pub(super) plan: &'a CurvePlan,
+    pub(super) points: &'a Points,
+    pub(super) springs: &'a Springs,
+    /// The finest and the whole time (s) of the curve.
+    pub(super) times_s: (f64, f64),
+    /// The unknown contact point is a part of this.
+    pub(super) scale_m: f64,
+    pub(super) sigma_n: Vec<f64>,
+    pub(super) nuisances: Vec<Nuisance>,
+    /// What the instrument adds, orthogonal and of length one, in standard deviations of the points.
+    pub(super) basis: Vec<DVector<f64>>,
+    pub(super) interrupt: &'a AtomicBool,
+}
+
+/// The same for one.
+pub(super) struct OfForm<'a> {
+    pub(super) fitted: &'a Fitted<'a>,
+    pub(super) form: Form,
+}
+
+impl<'a> Fitted<'a> {
+    pub(super) fn new(
+        plan: &'a CurvePlan,
+        points: &'a Points,
+        springs: &'a Springs,
+        (touch, deepest_m): (&Touch, f64),
+        interrupt: &'a AtomicBool,
+    ) -> Self {
+        let time_s = &points.time_s;
+        let steps = time_s.windows(2).map(|t| t[1] - t[0]);
+        let finest_s = steps
+            .filter(|step| *step > 0.0)
+            .fold(f64::INFINITY, f64::min);
+        let sigma_n = points.samples.iter().map(|n| points.noise_n / n.sqrt());
+        let mut fitted = Self {
+            plan,
+            points,
+            springs,
+            times_s: (finest_s, time_s[time_s.len() - 1] - time_s[0]),
+            scale_m: deepest_m,
+            sigma_n: sigma_n.collect(),
+            nuisances: nuisances(points, touch.before, plan.drag_n_s_per_m.is_none()),
+            basis: Vec::new(),
+            interrupt,
+        };
+        for nuisance in fitted.nuisances.clone() {
+            let column = fitted.projected(fitted.column(nuisance));
+            let length = column.norm();
+            fitted.basis.push(column / length);
+        }
+        fitted
+    }
+
+    /// What one of a nuisance adds to the force of every point, in its standard deviations.
+    pub(super) fn column(&self, nuisance: Nuisance) -> DVector<f64> {
+        let points = self.points;
+        let of = |k: usize| match nuisance {
+            Nuisance::Offset => 1.0,
+            Nuisance::Drift => points.time_s[k] - points.time_s[0],
+            Nuisance::Drag => points.speed_m_per_s[k],
+        };
+        let all = (0..points.time_s.len()).map(|k| of(k) / self.sigma_n[k]);
+        DVector::from_iterator(points.time_s.len(), all)
+    }
+
+    pub(super) fn response(&self, form: Form, unknowns: &[f64]) -> Option<Vec<f64>> {
+        let (contact_part, unknowns) = unknowns.split_last()?;
+        let series = form.series_within(&form.values(unknowns), self.times_s)?;
+        let contact = self.plan.contact(&series)?;
+        let contact_point_m = contact_part * self.scale_m;
+        let depths = self.points.indentation_m.iter();
+        let depths: Vec<f64> = depths.map(|d| d - contact_point_m).collect();
+        self.springs
+            .response(&contact, &self.points.time_s, &depths)
+    }
+
+    /// Computed less measured forces in their standard deviations.
+    pub(super) fn off(&self, form: Form, unknowns: &[f64]) -> Option<DVector<f64>> {
+        if self.interrupt.load(Ordering::Relaxed) {
+            return None;
+        }
+        let response = self.response(form, unknowns)?;
+        let all = response.iter().zip(&self.points.force_n);
+        let off = all
+            .zip(&self.sigma_n)
+            .map(|((computed, measured), sigma)| (computed - measured) / sigma);
+        Some(DVector::from_iterator(self.sigma_n.len(), off))
+    }
+
+    pub(super) fn projected(&self, mut residuals: DVector<f64>) -> DVector<f64> {
+        for column in &self.basis {
+            let along = column.dot(&residuals);
+            residuals -= column * along;
+        }
+        residuals
+    }
+
+    /// The least squares solution of a law, from the best of its starts on.
+    pub(super) fn best(
+        &self,
+        form: Form,
+        (modulus_pa, window_s, contact_point_m): (f64, (f64, f64), f64),
+    ) -> Option<Solution<Vec<f64>>> {
+        let problem = OfForm { fitted: self, form };
+        let mut starts: Vec<(f64, Vec<f64>)> = form
+            .starts(modulus_pa, window_s)
+            .into_iter()
+            .filter_map(|mut start| {
+                start.push(contact_point_m / self.scale_m);
+                self.scaled(form, start)
+            })
+            .collect();
+        starts.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let nearly = NEARLY * starts.first()?.0;
+        let all = starts.iter().take(2).filter(|(left, _)| *left <= nearly);
+        let found = all.filter_map(|(_, start)| minimise(&problem, start, EXACTLY));
+        found.min_by(|a, b| a.squares().total_cmp(&b.squares()))
+    }
+
+    /// A start with all its moduli multiplied so that it comes nearest to the curve, and the sum of squares that are left.
+    pub(super) fn scaled(&self, form: Form, mut start: Vec<f64>) -> Option<(f64, Vec<f64>)> {
+        let response = self.response(form, &start)?;
+        let weighed = |force: &[f64]| {
+            let all = force.iter().zip(&self.sigma_n).map(|(f, s)| f / s);
+            self.projected(DVector::from_iterator(self.sigma_n.len(), all))
+        };
+        let (computed, measured) = (weighed(&response), weighed(&self.points.force_n));
+        let factor = computed.dot(&measured) / computed.norm_squared();
+        let left = (computed * factor - measured).norm_squared();
+        for (unknown, parameter) in start.iter_mut().zip(form.parameters()) {
+            if parameter.scale == Scale::Logarithm(Dimension::Stress) {
+                *unknown += factor.max(1e-3).ln();
+            }
+        }
+        Some((left, start))
+    }
+}
+
+impl OfForm<'_> {
+    /// Derivatives of the residuals before anything is projected out.
+    pub(super) fn columns(&self, unknowns: &[f64]) -> Option<Vec<DVector<f64>>> {
+        let last = unknowns.len() - 1;
+        let column = |k: usize| {
+            let step = if k == last { STEP_OF_CONTACT } else { STEP };
+            let at = |off: f64| {
+                let mut moved = unknowns.to_vec();
+                moved[k] += off;
+                self.fitted.off(self.form, &moved)
+            };
+            Some((at(step)? - at(-step)?) / (2.0 * step))
+        };
+        (0..unknowns.len()).map(column).collect()
+    }
+}
+
+impl Problem for OfForm<'_> {
+    type Unknowns = Vec<f64>;
+
+    fn residuals(&self, unknowns: &Vec<f64>) -> Option<DVector<f64>> {
+        let off = self.fitted.off(self.form, unknowns)?;
+        Some(self.fitted.projected(off))
+    }
+
+    fn derivatives(&self, unknowns: &Vec<f64>) -> Option<DMatrix<f64>> {
+        let here = self.fitted.off(self.form, unknowns)?;
+        let column = |k: usize| {
+            let mut moved = unknowns.clone();
+            moved[k] += FORWARD;
+            let off = self.fitted.off(self.form, &moved)? - &here;
+            Some(self.fitted.projected(off / FORWARD))
+        };
+        let columns: Option<Vec<DVector<f64>>> = (0..unknowns.len()).map(column).collect();
+        Some(DMatrix::from_columns(&columns?))
+    }
+
+    fn clamp(&self, place: usize, value: f64) -> f64 {
+        let parameters = self.form.parameters();
+        match parameters.get(place).map(|p| p.scale) {
+            Some(Scale::Odds) => value.clamp(-WIDEST_ODDS, WIDEST_ODDS),
+            Some(Scale::Logarithm(_)) => value.clamp(-WIDEST_LOGARITHM, WIDEST_LOGARITHM),
+            None => value,
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! What an identification file says of force curves: its keys, and the same with every default written out.
+
+use super::fit::CurvePlan;
+use super::record::ForceCurve;
+use crate::identify::resolved::{IDENTIFY_BRANCHES, branches_setting};
+use crate::identify::{MOST_BRANCHES, Sought};
+use crate::material::law::{Form, Law};
+use crate::quantity::Dimension;
+use crate::quantity::block::Block as _;
+use crate::quantity::key::{Entries, Kind, quantity};
+use crate::quantity::setting::{Table, document};
+use crate::sweep::plan::contact::ContactPlan;
+use crate::sweep::plan::resolved::{compressibility, indenter_material_text};
+use crate::{block_with_defaults, keys};
+
+/// Laws by their names, and the word for all of them.
+const LAWS: &[&str] = &[
+    "auto",
+    Law::PowerLaw.name(),
+    Law::StandardSolid.name(),
+    Law::FractionalZener.name(),
+    Law::FractionalMaxwell.name(),
+    Law::KelvinVoigt.name(),
+    Law::Kww.name(),
+    Law::Series.name(),
+];
+
+const LAW_ENTRIES: Entries = Entries {
+    repeats: false,
+    ..Entries::of(1..=LAWS.len(), "write one law, or a list of several")
+};
+
+const CURVES: Entries = Entries::of(1..=100_000, "name at least one file of force curves");
+
+/// Most branches of a series where the curve is to choose.
+const MOST_CHOSEN: usize = 4;
+
+keys! {
+    /// A force curve: a table with `time_s`, `force_n` and `indentation_m`, or with `piezo_m` and `deflection_m` or `force_n`; several
+    /// curves where it has a column `curve`. Or a list of such files. Where the contact begins is found.
+    CURVE = "curve", Kind::Texts(CURVES);
+    /// Laws between which the curve chooses: `auto` (the default) for all, a name, or a list of names.
+    LAW = "law", Kind::Words(LAWS, LAW_ENTRIES), optional;
+}
+
+block_with_defaults! {
+    /// What is known of the instrument of force curves.
+    #[derive(Copy)]
+    pub struct Probe in "instrument" {
+        /// Spring constant of a cantilever: the force over its deflection.
+        spring_constant_n_per_m: Option<f64> = None => "spring_constant", Kind::Number(quantity(Dimension::Stiffness).above_zero());
+        /// Compliance of frame and mount, which the indentation is less by.
+        frame_compliance_m_per_n: f64 = 0.0 => "frame_compliance", Kind::Number(quantity(Dimension::FrameCompliance).not_negative());
+        /// Drag on the probe while it moves, where it is known; otherwise it is found, of curves that have a part before contact.
+        drag_n_s_per_m: Option<f64> = None => "drag", Kind::Number(quantity(Dimension::Damping).not_negative());
+    }
+}
+
+/// An identification from force curves.
+#[derive(Debug, Clone)]
+pub struct CurvesPlan {
+    pub title: String,
+    pub fit: CurvePlan,
+    pub probe: Probe,
+    /// Names of laws, as asked for.
+    pub laws: Vec<String>,
+    /// Branches of a series; `None` lets the curve choose.
+    pub branches: Option<usize>,
+    /// As the file names them.
+    pub files: Vec<String>,
+    pub curves: Vec<ForceCurve>,
+}
+
+/// The laws of these names, all where there are none, and a series of so many branches.
+pub fn forms(laws: &[String], branches: Option<usize>) -> Vec<Form> {
+    let all = laws.is_empty() || laws.iter().any(|law| law == "auto");
+    let (fewest, most) = match (branches, all) {
+        (Some(asked), _) => (asked, asked.min(MOST_BRANCHES)),
+        (None, true) => (2, MOST_CHOSEN),
+        (None, false) => (1, MOST_CHOSEN),
+    };
+    let mut forms: Vec<Form> = (Form::all(1).into_iter())
+        .filter(|form| all || laws.iter().any(|law| law == form.law.name()))
+        .collect();
+    if all || laws.iter().any(|law| law == Law::Series.name()) {
+        forms.extend(Form::series(fewest, most));
+    }
+    forms
+}
+
+/// The plan as the text of an identification file.
+pub fn resolved_text(plan: &CurvesPlan) -> String {
+    let known = Sought {
+        compressibility: plan.fit.compressibility.clone(),
+        indenter_material: plan.fit.indenter_material.clone(),
+    };
+    let material = Table::new("material").and(compressibility(&known.compressibility));
+    let indenter = known.indenter_material.as_ref().map(indenter_material_text);
+    let contact = ContactPlan::new(known, plan.fit.indenter.clone()).blocks(indenter);
+    let identify = Table::new("identify")
+        .and(CURVE.setting(plan.files.clone()))
+        .and(LAW.setting(plan.laws.clone()))
+        .and(IDENTIFY_BRANCHES.setting(branches_setting(plan.branches)));
+    let blocks = [
+        material.toml(),
+        contact.indenter,
+        identify.toml(),
+        plan.probe.table().toml(),
+    ];
+    document(&plan.title, blocks)
+}

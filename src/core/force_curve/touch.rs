@@ -1,0 +1,137 @@
+//! Where a contact begins, roughly, and what the instrument adds to the force.
+
+use super::fit::CurveError;
+use super::record::Points;
+use super::springs::Springs;
+use crate::indenter::Axisymmetric;
+use crate::quantity::Dimension;
+
+/// Points before contact that tell what the instrument adds.
+const FEWEST_BEFORE: usize = 4;
+
+/// What the instrument adds to the force.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Nuisance {
+    /// N.
+    Offset,
+    /// N/s.
+    Drift,
+    /// N s/m.
+    Drag,
+}
+
+impl Nuisance {
+    /// With its unit, as tables call it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Offset => "force_offset_n",
+            Self::Drift => "force_drift_n_per_s",
+            Self::Drag => "drag_n_s_per_m",
+        }
+    }
+
+    /// Of what can be written with a prefix.
+    pub const fn dimension(self) -> Option<Dimension> {
+        match self {
+            Self::Offset => Some(Dimension::Force),
+            Self::Drift => None,
+            Self::Drag => Some(Dimension::Damping),
+        }
+    }
+}
+
+/// Where a curve begins to be a contact, as an elastic body would have it.
+pub(super) struct Touch {
+    pub(super) contact_point_m: f64,
+    pub(super) modulus_pa: f64,
+    /// Points before it.
+    pub(super) before: usize,
+}
+
+/// Tries every point of the first approach as that of first contact, with a force that is constant before it and elastic from it on.
+pub(super) fn touch(profile: &dyn Axisymmetric, points: &Points) -> Result<Touch, CurveError> {
+    let (least_m, deepest_m) = (
+        points
+            .indentation_m
+            .iter()
+            .copied()
+            .fold(f64::INFINITY, f64::min),
+        largest(&points.indentation_m),
+    );
+    if deepest_m <= least_m {
+        return Err(CurveError::Still);
+    }
+    let springs = Springs::new(profile, 1.0001 * (deepest_m - least_m));
+    // The approach ends where most of the depth has been reached for the first time.
+    let is_deep = |d: &f64| *d >= deepest_m - 0.02 * (deepest_m - least_m);
+    let end = points.indentation_m.iter().position(is_deep).unwrap_or(0);
+    let mut best: Option<(f64, Touch)> = None;
+    for start in 0..end.saturating_sub(3) {
+        let contact_point_m = points.indentation_m[start];
+        // An offset, where something tells it.
+        let has_offset = start >= FEWEST_BEFORE;
+        let mut sums = [0.0; 6];
+        for k in 0..=end {
+            let shape = springs.elastic_m2(points.indentation_m[k] - contact_point_m);
+            let (w, force) = (points.samples[k], points.force_n[k]);
+            for (sum, term) in sums.iter_mut().zip([
+                1.0,
+                shape,
+                shape * shape,
+                force,
+                force * shape,
+                force * force,
+            ]) {
+                *sum += w * term;
+            }
+        }
+        let [n, s, ss, f, fs, ff] = sums;
+        let (modulus_pa, left) = match has_offset {
+            true => {
+                let modulus_pa = (n * fs - s * f) / (n * ss - s * s);
+                let offset = (f - modulus_pa * s) / n;
+                (modulus_pa, ff - modulus_pa * fs - offset * f)
+            }
+            false => (fs / ss, ff - fs * fs / ss),
+        };
+        if modulus_pa > 0.0 && best.as_ref().is_none_or(|(least, _)| left < *least) {
+            let touch = Touch {
+                contact_point_m,
+                modulus_pa,
+                before: start,
+            };
+            best = Some((left, touch));
+        }
+    }
+    best.map(|(_, touch)| touch).ok_or(CurveError::NoContact)
+}
+
+/// What the instrument may add that the curve can tell.
+pub(super) fn nuisances(points: &Points, before: usize, has_drag: bool) -> Vec<Nuisance> {
+    let mut all = Vec::new();
+    if before >= FEWEST_BEFORE {
+        all.extend([Nuisance::Offset, Nuisance::Drift]);
+        let fastest = points
+            .speed_m_per_s
+            .iter()
+            .fold(0.0_f64, |a, v| a.max(v.abs()));
+        let approach = points.speed_m_per_s[..before].iter().sum::<f64>() / before as f64;
+        let is_other = |v: &&f64| (**v - approach).abs() > 0.3 * fastest;
+        if has_drag && points.speed_m_per_s.iter().filter(is_other).count() >= FEWEST_BEFORE {
+            all.push(Nuisance::Drag);
+        }
+    }
+    all
+}
+
+pub(super) fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(f64::NEG_INFINITY, |a, b| a.max(*b))
+}
+
+/// First and last time (s) at which points are deeper than the contact point.
+pub(super) fn contact_times(points: &Points, contact_point_m: f64) -> (f64, f64) {
+    let is_in = |d: &f64| *d > contact_point_m;
+    let first = points.indentation_m.iter().position(is_in).unwrap_or(0);
+    let last = points.indentation_m.iter().rposition(is_in).unwrap_or(0);
+    (points.time_s[first], points.time_s[last])
+}

@@ -1,0 +1,121 @@
+//! Force curves as tables: time, and force over indentation, or what an instrument has in their place.
+
+use std::collections::BTreeMap;
+
+use super::data_file::{Column, DataFile, Holes, TIME};
+use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source};
+use crate::force_curve::ForceCurve;
+use crate::force_curve::resolved::Probe;
+use crate::quantity::Dimension::{Force, Length};
+
+const CURVE: Column = Column::pure(
+    &["curve", "curve_number", "curve_index"],
+    "numbers of curves",
+)
+.optional();
+
+#[rustfmt::skip]
+const COLUMNS: [Column; 6] = [
+    TIME,
+    Column::new(&["force", "load", "normal_force"], Force, "forces").by_first_name().optional(),
+    Column::new(&["indentation", "depth", "approach", "penetration", "tip_sample_separation"], Length, "indentations")
+        .by_first_name().optional(),
+    Column::new(&["piezo", "z_piezo", "piezo_position", "height", "z"], Length, "piezo positions").by_first_name().optional(),
+    Column::new(&["deflection", "cantilever_deflection", "vertical_deflection"], Length, "deflections").by_first_name().optional(),
+    CURVE,
+];
+
+/// The curves of a table that messages call `name`.
+///
+/// # Errors
+/// What [`DataFile`] refuses; columns that make no force and no indentation; times in no order; each at its place.
+pub(super) fn parse(
+    name: &str,
+    bytes: &[u8],
+    probe: &Probe,
+) -> Result<Vec<ForceCurve>, Diagnostics> {
+    let file = DataFile::from_bytes(name, bytes)?;
+    let without_number = "write a number, or leave the cell empty where nothing was measured";
+    let table = file.columns(&COLUMNS, Holes::PassedOver, without_number)?;
+    let column = |place: usize| table.has(place).then(|| table.column(place));
+    let [force_n, indentation_m, piezo_m, deflection_m] = [1, 2, 3, 4].map(column);
+    let header = file.first_line();
+    let spring = probe.spring_constant_n_per_m;
+    let force_n = match (force_n, &deflection_m, spring) {
+        (Some(force_n), ..) => force_n,
+        (None, Some(deflection_m), Some(spring)) => times(deflection_m, spring),
+        (None, Some(_), None) => {
+            return Err(Diagnostic::at(&header, "a deflection, and no spring constant")
+                .because("the force is their product")
+                .help("add `[instrument]` with `spring_constant = \"0.1 N/m\"`, or a column `force_n`")
+                .into());
+        }
+        (None, None, _) => {
+            return Err(Diagnostic::at(&header, "no column `force_n` and no column `deflection_m`")
+                .help("give `time_s,force_n,indentation_m`, or `time_s,piezo_m,deflection_m` with the spring constant in `[instrument]`")
+                .into());
+        }
+    };
+    let indentation_m = match (indentation_m, &piezo_m) {
+        (Some(indentation_m), _) => indentation_m,
+        (None, Some(piezo_m)) => {
+            let deflection_m = match (deflection_m, spring) {
+                (Some(deflection_m), _) => deflection_m,
+                (None, Some(spring)) => times(&force_n, 1.0 / spring),
+                (None, None) => {
+                    return Err(Diagnostic::at(&header, "a piezo position and a force, and no spring constant")
+                        .because("the indentation is the position less the deflection")
+                        .help("add `[instrument]` with `spring_constant = \"0.1 N/m\"`, or a column `deflection_m` or `indentation_m`")
+                        .into());
+                }
+            };
+            let both = piezo_m.iter().zip(&deflection_m);
+            both.map(|(piezo, deflection)| piezo - deflection).collect()
+        }
+        (None, None) => {
+            return Err(Diagnostic::at(&header, "no column `indentation_m` and no column `piezo_m`")
+                .help("give `time_s,force_n,indentation_m`, or `time_s,piezo_m,deflection_m` with the spring constant in `[instrument]`")
+                .into());
+        }
+    };
+    let time_s = table.column(0);
+    let of_row = column(5).unwrap_or_else(|| vec![0.0; time_s.len()]);
+    let mut curves: BTreeMap<u64, ForceCurve> = BTreeMap::new();
+    let problems = Problems::new();
+    let stem = std::path::Path::new(name).file_stem();
+    let stem = stem.map_or_else(|| name.to_owned(), |stem| stem.display().to_string());
+    let many = table.has(5);
+    for (row, number) in of_row.iter().enumerate() {
+        let curve = curves.entry(number.to_bits()).or_default();
+        if curve.time_s.is_empty() {
+            curve.name = match many {
+                true => format!("{stem}-{number}"),
+                false => stem.clone(),
+            };
+        }
+        if curve.time_s.last().is_some_and(|last| time_s[row] <= *last) {
+            problems
+                .at(&table.cell(row, 0), "this time does not follow the one above")
+                .help("sort the rows of every curve by time, and keep one row per time; number several curves in a column `curve`");
+            break;
+        }
+        curve.time_s.push(time_s[row]);
+        curve.force_n.push(force_n[row]);
+        let gives_m = probe.frame_compliance_m_per_n * force_n[row];
+        curve.indentation_m.push(indentation_m[row] - gives_m);
+        if let Some(piezo_m) = &piezo_m {
+            curve.travel_m.get_or_insert_default().push(piezo_m[row]);
+        }
+    }
+    if curves.is_empty() {
+        let whole = Location::whole(&Source::file(name, ""));
+        return Err(Diagnostic::at(&whole, "the table has no rows")
+            .help("give a row per sample")
+            .into());
+    }
+    problems.into_result(Some(curves.into_values().collect()))
+}
+
+fn times(values: &[f64], factor: f64) -> Vec<f64> {
+    values.iter().map(|value| factor * value).collect()
+}

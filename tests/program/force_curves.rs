@@ -1,0 +1,196 @@
+//! `identify` of force curves: from what a simulation or an instrument writes to a law.
+
+use crate::prelude::*;
+
+/// E* = 1 kPa (i omega 1 s)^0.2 under a sphere of 2.5 um, 0.5 um deep in 0.5 s, held and back.
+const GEL: &str = r#"
+title = "gel"
+[material]
+poisson_ratio = 0.5
+[material.fractional]
+model = "springpot"
+modulus = "longitudinal"
+stiffness = "1 kPa"
+time = "1 s"
+exponent = 0.2
+band = ["0.05 rad/s", "1e4 rad/s"]
+[indenter]
+shape = "sphere"
+radius = "2.5 um"
+[drive]
+control = "approach"
+segments = [
+  { kind = "ramp", to = "0.5 um", duration = "0.5 s" },
+  { kind = "step", to = "0.5 um", duration = "1 s" },
+  { kind = "ramp", to = "0 um", duration = "0.5 s" },
+]
+"#;
+
+const IDENTIFY: &str = r#"
+title = "found"
+[identify]
+curve = "CURVE"
+[material]
+poisson_ratio = 0.5
+[indenter]
+shape = "sphere"
+radius = "2.5 um"
+"#;
+
+/// Value and whether the interval holds a number.
+fn of<'a>(found: &'a Value, exact: f64) -> (f64, bool) {
+    let number = |key: &str| found[key].as_f64().unwrap();
+    (
+        number("value"),
+        number("low") <= exact && exact <= number("high"),
+    )
+}
+
+/// Time, force and indentation of a history, with a part before contact, an offset, a drift and noise.
+fn measured(place: &Place, folder: &str) -> Vec<[f64; 3]> {
+    let history = place.table(&format!("{folder}/history.csv"));
+    let row = |row: usize| {
+        let of = |name: &str| history.number(row, name);
+        [of("time_s"), of("load_n"), of("approach_m")]
+    };
+    let rows: Vec<[f64; 3]> = (0..history.len()).map(row).collect();
+    let mut random = Random(7);
+    let samples = 2400;
+    (0..samples)
+        .map(|sample| {
+            let t = 3.0 * f64::from(sample) / f64::from(samples) - 0.5;
+            let after = rows.partition_point(|row| row[0] < t);
+            let [load_n, approach_m] =
+                [1, 2].map(
+                    |which| match (rows.get(after.wrapping_sub(1)), rows.get(after)) {
+                        (Some(a), Some(b)) => {
+                            a[which] + (b[which] - a[which]) * (t - a[0]) / (b[0] - a[0])
+                        }
+                        _ => 0.0,
+                    },
+                );
+            let outside_m = 1e-6 * (t.min(0.0) + (2.0 - t).min(0.0));
+            let noise_n = 5e-12 * random.gauss();
+            [
+                t + 0.5,
+                load_n + 2e-10 + 1e-11 * t + noise_n,
+                approach_m + outside_m + 3e-6,
+            ]
+        })
+        .collect()
+}
+
+#[test]
+fn a_law_is_found_from_a_history_and_from_a_piezo_and_a_cantilever() {
+    let place = Place::new();
+    place.put("gel.toml", GEL);
+    place.done("simulate gel.toml --quiet --out gel");
+    // A history is a curve as it stands: its contact begins at its beginning.
+    place.put("plain.toml", IDENTIFY.replace("CURVE", "gel/history.csv"));
+    place.done("identify plain.toml --quiet --out plain");
+    let found = place.json("plain/summary.json");
+    assert_eq!(found["law"], "power-law");
+    let (modulus_pa, _) = of(&found["parameters"]["modulus_pa"], 1e3);
+    assert!((modulus_pa / 1e3 - 1.0).abs() < 0.01, "{modulus_pa}");
+    let rows = measured(&place, "gel");
+    let table = |header: &str, row: &dyn Fn(&[f64; 3]) -> [f64; 3]| {
+        let rows = rows.iter().map(row);
+        let rows = rows.map(|[a, b, c]| format!("{a},{b:e},{c:e}\n"));
+        format!("{header}\n{}", rows.collect::<String>())
+    };
+    place.put("a.csv", table("time_s,force_n,indentation_m", &|row| *row));
+    // A cantilever of 0.1 N/m bends by the force over it, and the piezo moves by both.
+    place.put(
+        "b.csv",
+        table("time_s,piezo_um,deflection_nm", &|[t, force_n, depth_m]| {
+            [*t, 1e6 * (depth_m + force_n / 0.1), 1e9 * force_n / 0.1]
+        }),
+    );
+    place.put("a.toml", IDENTIFY.replace("CURVE", "a.csv"));
+    let with_spring = "[instrument]\nspring_constant = \"0.1 N/m\"\n[material]";
+    place.put(
+        "b.toml",
+        IDENTIFY
+            .replace("CURVE", "b.csv")
+            .replace("[material]", with_spring),
+    );
+    for curve in ["a", "b"] {
+        place.done(&format!("identify {curve}.toml --quiet --out {curve}"));
+        let found = place.json(&format!("{curve}/summary.json"));
+        assert_eq!(found["law"], "power-law");
+        assert_eq!(found["laws"][0]["law"], "power-law");
+        for (name, exact) in [("modulus_pa", 1e3), ("exponent", 0.2)] {
+            let (value, is_inside) = of(&found["parameters"][name], exact);
+            assert!(
+                is_inside && (value / exact - 1.0).abs() < 0.03,
+                "{curve} {name} {value}"
+            );
+        }
+        let (contact_m, is_inside) = of(&found["contact_point_m"], 3e-6);
+        assert!(
+            is_inside && (contact_m - 3e-6).abs() < 5e-9,
+            "{curve} {contact_m:e}"
+        );
+        let moduli = place.table(&format!("{curve}/figures/moduli.csv"));
+        let middle = moduli.len() / 2;
+        let omega = moduli.number(middle, "angular_frequency_rad_per_s");
+        let exact = 1e3 * omega.powf(0.2) * (0.1 * std::f64::consts::PI).cos();
+        assert!(moduli.number(middle, "storage_modulus_low_pa") < exact);
+        assert!(moduli.number(middle, "storage_modulus_high_pa") > exact);
+    }
+    // The same again from what was written of it.
+    place.put("again.toml", place.text("a/resolved.toml"));
+    place.done("identify again.toml --quiet --out again");
+    assert_eq!(
+        place.bytes("again/summary.json"),
+        place.bytes("a/summary.json")
+    );
+    // The material that was found has the history that was measured.
+    let known = GEL.find("[material]").unwrap()..GEL.find("[indenter]").unwrap();
+    place.put(
+        "found.toml",
+        GEL.replace(&GEL[known], &place.text("a/material.toml")),
+    );
+    place.done("simulate found.toml --quiet --out found");
+    let largest = |folder: &str| {
+        let loads = place
+            .table(&format!("{folder}/history.csv"))
+            .numbers("load_n");
+        loads.into_iter().fold(0.0, f64::max)
+    };
+    assert!((largest("found") / largest("gel") - 1.0).abs() < 0.01);
+}
+
+#[test]
+fn many_curves_are_a_table_and_one_that_is_none_is_named() {
+    let place = Place::new();
+    place.put("gel.toml", GEL);
+    place.done("simulate gel.toml --quiet --out gel");
+    let rows = measured(&place, "gel");
+    // Two curves in a file, and a third that is flat.
+    let mut text = "curve,time_s,force_n,indentation_m\n".to_owned();
+    for curve in [1, 2, 3] {
+        for [t, force_n, depth_m] in &rows {
+            let force_n = if curve == 3 { 0.0 } else { *force_n };
+            text += &format!("{curve},{t},{force_n:e},{depth_m:e}\n");
+        }
+    }
+    place.put("map.csv", text);
+    let law = "law = [\"power-law\", \"standard-solid\"]\n[material]";
+    place.put(
+        "map.toml",
+        IDENTIFY
+            .replace("CURVE", "map.csv")
+            .replace("[material]", law),
+    );
+    let run = place.run("identify map.toml --out map").ended(3);
+    says(&run.stdout, &["2 of 3 curves were fitted", "map-3"]);
+    let table = place.table("map/curves.csv");
+    assert_eq!(table.cells("curve"), ["map-1", "map-2", "map-3"]);
+    assert_eq!(table.cells("status"), ["converged", "converged", "failed"]);
+    assert_eq!(table.cells("law")[..2], ["power-law"; 2]);
+    assert!(place.has("map/figures/moduli-of-curves.svg"));
+    let drawn = place.bytes("map/figures/moduli-of-curves.svg");
+    place.done("report map --quiet");
+    assert_eq!(place.bytes("map/figures/moduli-of-curves.svg"), drawn);
+}
