@@ -38,7 +38,7 @@ radius = "2.5 um"
 "#;
 
 /// Value and whether the interval holds a number.
-fn of<'a>(found: &'a Value, exact: f64) -> (f64, bool) {
+fn of(found: &Value, exact: f64) -> (f64, bool) {
     let number = |key: &str| found[key].as_f64().unwrap();
     (
         number("value"),
@@ -193,4 +193,90 @@ fn many_curves_are_a_table_and_one_that_is_none_is_named() {
     let drawn = place.bytes("map/figures/moduli-of-curves.svg");
     place.done("report map --quiet");
     assert_eq!(place.bytes("map/figures/moduli-of-curves.svg"), drawn);
+}
+
+/// The identification of a file of `tests/instruments`.
+fn instrument(file: &str) -> String {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("tests/instruments")
+        .join(file);
+    IDENTIFY.replace("CURVE", &file.display().to_string().replace('\\', "/"))
+}
+
+#[test]
+fn files_of_instruments_are_read_in_their_own_calibration() {
+    let place = Place::new();
+    // Largest forces above the baseline, as the instruments were asked for them: 2.6936 V times 60.86 nm/V and 0.061 N/m, which the feedback
+    // passes by 7 %, and a trigger of 10 nN. Of the cell the baseline, -0.99139 V times 110.28 nm/V and 1.0677 N/m.
+    let largest =
+        |forces: &[f64]| forces.iter().fold(f64::NEG_INFINITY, |a, b| a.max(*b)) - forces[0];
+    let first = |forces: &[f64]| forces[0];
+    type Of<'a> = &'a dyn Fn(&[f64]) -> f64;
+    let cases: [(&str, usize, f64, Of<'_>, f64, f64); 3] = [
+        (
+            "creep-polymer-gel.jpk-force",
+            9000,
+            9.0,
+            &largest,
+            10.0e-9,
+            0.09,
+        ),
+        (
+            "relaxation-cell.jpk-force",
+            11_935,
+            32.95,
+            &first,
+            -116.73e-9,
+            0.01,
+        ),
+        ("SiN.ibw", 2016, 1.0081, &largest, 10.0e-9, 0.01),
+    ];
+    for (file, samples, duration_s, of, force_n, within) in cases {
+        place.put("one.toml", instrument(file));
+        place.done("identify one.toml --quiet --force --out one");
+        assert_eq!(place.json("one/summary.json")["samples"], samples, "{file}");
+        let points = place.table("one/fit.csv");
+        let off = of(&points.numbers("force_n")) / force_n - 1.0;
+        assert!(off.abs() < within, "{file}: {off}");
+        assert!(points.numbers("time_s").last().unwrap() < &duration_s);
+    }
+    // The retraction of the cell and of the gel pulls, which no law does.
+    place.put("gel.toml", instrument("creep-polymer-gel.jpk-force"));
+    let run = place.done("identify gel.toml --out gel");
+    says(
+        &run.stdout,
+        &["the retraction pulls", "the law misses the curve"],
+    );
+    place.put("map.toml", instrument("four-of-a-map.jpk-force-map"));
+    place.done("identify map.toml --quiet --out map");
+    let table = place.table("map/curves.csv");
+    assert_eq!(table.len(), 4);
+    assert_eq!(table.cells("curve")[3], "four-of-a-map-3");
+    let [first, last] = [0, 3].map(|row| table.number(row, "x_m"));
+    assert!((last - first - 15e-6).abs() < 1e-9, "{first} {last}");
+}
+
+#[test]
+fn a_file_of_an_instrument_that_is_cut_short_is_refused_and_nothing_panics() {
+    let place = Place::new();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/instruments");
+    let mut random = Random(11);
+    for file in ["SiN.ibw", "relaxation-cell.jpk-force"] {
+        let whole = fs::read(folder.join(file)).unwrap();
+        for _ in 0..6 {
+            let mut bytes = whole[..(whole.len() as f64 * random.unit()) as usize].to_vec();
+            if random.unit() < 0.5 {
+                bytes = whole.clone();
+                for _ in 0..20 {
+                    let at = (400.0 * random.unit()) as usize;
+                    bytes[at] = (256.0 * random.unit()) as u8;
+                }
+            }
+            place.put(file, bytes);
+            place.put("one.toml", IDENTIFY.replace("CURVE", file));
+            let run = place.run("identify one.toml --quiet --force --out one");
+            assert!([0, 1, 2].contains(&run.code), "{}", run.stderr);
+            assert!(!run.stderr.contains("panicked"), "{}", run.stderr);
+        }
+    }
 }

@@ -9,7 +9,7 @@ use super::found::{CurveFit, Solved};
 use super::problem::Fitted;
 use super::record::ForceCurve;
 use super::springs::Springs;
-use super::touch::{contact_times, largest, touch};
+use super::touch::{contact_times, largest, pulled_from, touch};
 use crate::engine::body_of_revolution;
 use crate::indenter::Indenter;
 use crate::material::law::Form;
@@ -104,6 +104,10 @@ pub fn fit(
         }
     }
     let touch = touch(profile, &points)?;
+    let pulled_from = pulled_from(&points, &touch);
+    if let Some(count) = pulled_from {
+        points.truncate(count);
+    }
     let deepest_m = largest(&points.indentation_m) - touch.contact_point_m;
     let springs = Springs::new(profile, DEEPER * deepest_m);
     let deeper = points.indentation_m.iter();
@@ -122,6 +126,10 @@ pub fn fit(
     let found: Vec<Solved> = found.collect();
     match interrupt.load(Ordering::Relaxed) {
         true => Err(CurveError::Interrupted),
-        false => fitted.judged(&found, window_s),
+        false => {
+            let mut found = fitted.judged(&found, window_s)?;
+            found.is_pulled = pulled_from.is_some();
+            Ok(found)
+        }
     }
 }

@@ -62,6 +62,8 @@ pub struct CurveFit {
     pub computed_n: Vec<f64>,
     /// Standard deviation (N) of each point.
     pub error_n: Vec<f64>,
+    /// Whether the retraction pulls, and is left out.
+    pub is_pulled: bool,
     times_s: (f64, f64),
 }
 
@@ -159,6 +161,7 @@ impl Fitted<'_> {
             computed_n,
             points: self.points.clone(),
             error_n: self.sigma_n.clone(),
+            is_pulled: false,
             times_s: self.times_s,
             laws: laws.into_iter().map(|(law, _)| law).collect(),
         })

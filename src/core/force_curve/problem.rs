@@ -74,7 +74,7 @@ impl<'a> Fitted<'a> {
             times_s: (finest_s, time_s[time_s.len() - 1] - time_s[0]),
             scale_m: deepest_m,
             sigma_n: sigma_n.collect(),
-            nuisances: nuisances(points, touch.before, plan.drag_n_s_per_m.is_none()),
+            nuisances: nuisances(points, touch, plan.drag_n_s_per_m.is_none()),
             basis: Vec::new(),
             interrupt,
         };

@@ -13,6 +13,8 @@ pub struct ForceCurve {
     pub indentation_m: Vec<f64>,
     /// What moves the instrument, which a drag goes with, where that is not the indentation.
     pub travel_m: Option<Vec<f64>>,
+    /// Where on the specimen it was taken, of a map.
+    pub place_m: Option<(f64, f64)>,
 }
 
 /// About how many points are left of a curve.
@@ -46,6 +48,21 @@ pub struct Points {
     pub samples: Vec<f64>,
     /// Standard deviation of the force of a sample, as its neighbours tell it.
     pub noise_n: f64,
+}
+
+impl Points {
+    /// Leaves out all from one on.
+    pub(super) fn truncate(&mut self, count: usize) {
+        for column in [
+            &mut self.time_s,
+            &mut self.force_n,
+            &mut self.indentation_m,
+            &mut self.speed_m_per_s,
+            &mut self.samples,
+        ] {
+            column.truncate(count);
+        }
+    }
 }
 
 impl ForceCurve {

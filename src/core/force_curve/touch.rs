@@ -9,6 +9,12 @@ use crate::quantity::Dimension;
 /// Points before contact that tell what the instrument adds.
 const FEWEST_BEFORE: usize = 4;
 
+/// The pull of a retraction that is no noise, drift or drag, as a part of the largest force.
+const PULL: f64 = 0.1;
+
+/// The part of the depth above which an indenter has not been retracted yet.
+const RETRACTED: f64 = 0.95;
+
 /// What the instrument adds to the force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Nuisance {
@@ -106,20 +112,39 @@ pub(super) fn touch(profile: &dyn Axisymmetric, points: &Points) -> Result<Touch
     best.map(|(_, touch)| touch).ok_or(CurveError::NoContact)
 }
 
+/// The first point of a retraction that pulls, as no law without attraction does; `None` where nothing pulls.
+pub(super) fn pulled_from(points: &Points, touch: &Touch) -> Option<usize> {
+    let before = &points.force_n[..touch.before];
+    let count = before.len().max(1) as f64;
+    let baseline_n = before.iter().sum::<f64>() / count;
+    let deepest = (0..points.indentation_m.len())
+        .max_by(|a, b| points.indentation_m[*a].total_cmp(&points.indentation_m[*b]))?;
+    let largest_n = largest(&points.force_n) - baseline_n;
+    let pull_n = points.force_n[deepest..]
+        .iter()
+        .map(|force| baseline_n - force);
+    let is_pulled = pull_n.fold(0.0, f64::max) > PULL * largest_n;
+    let depth_m = points.indentation_m[deepest] - touch.contact_point_m;
+    let is_deep = |d: &f64| *d > touch.contact_point_m + RETRACTED * depth_m;
+    let last = points.indentation_m.iter().rposition(is_deep)?;
+    (is_pulled && touch.before >= FEWEST_BEFORE).then_some(last + 1)
+}
+
 /// What the instrument may add that the curve can tell.
-pub(super) fn nuisances(points: &Points, before: usize, has_drag: bool) -> Vec<Nuisance> {
-    let mut all = Vec::new();
-    if before >= FEWEST_BEFORE {
-        all.extend([Nuisance::Offset, Nuisance::Drift]);
-        let fastest = points
-            .speed_m_per_s
-            .iter()
-            .fold(0.0_f64, |a, v| a.max(v.abs()));
-        let approach = points.speed_m_per_s[..before].iter().sum::<f64>() / before as f64;
-        let is_other = |v: &&f64| (**v - approach).abs() > 0.3 * fastest;
-        if has_drag && points.speed_m_per_s.iter().filter(is_other).count() >= FEWEST_BEFORE {
-            all.push(Nuisance::Drag);
-        }
+pub(super) fn nuisances(points: &Points, touch: &Touch, has_drag: bool) -> Vec<Nuisance> {
+    if touch.before < FEWEST_BEFORE {
+        return Vec::new();
+    }
+    let mut all = vec![Nuisance::Offset, Nuisance::Drift];
+    let speeds = &points.speed_m_per_s;
+    let fastest = speeds.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
+    let approach = speeds[..touch.before].iter().sum::<f64>() / touch.before as f64;
+    // In contact the law takes what another speed changes.
+    let outside = points.indentation_m.iter().zip(speeds);
+    let outside = outside.filter(|(d, _)| **d < touch.contact_point_m);
+    let others = outside.filter(|(_, v)| (**v - approach).abs() > 0.3 * fastest);
+    if has_drag && others.count() >= FEWEST_BEFORE {
+        all.push(Nuisance::Drag);
     }
     all
 }

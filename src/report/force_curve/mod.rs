@@ -165,6 +165,8 @@ impl<'a> CurvesReport<'a> {
     fn table(&self) -> Vec<u8> {
         let columns = [
             "curve",
+            "x_m",
+            "y_m",
             "status",
             "law",
             "law_weight",
@@ -182,10 +184,14 @@ impl<'a> CurvesReport<'a> {
             "message",
         ];
         let rows = self.plan.curves.iter().zip(self.fits).map(|(curve, fit)| {
-            let name = Cell::from(curve.name.clone());
+            let [x_m, y_m] = match curve.place_m {
+                Some((x_m, y_m)) => [Some(x_m), Some(y_m)],
+                None => [None; 2],
+            };
+            let mut row = vec![Cell::from(curve.name.clone()), x_m.into(), y_m.into()];
             match fit {
                 Err(error) => {
-                    let mut row = vec![name, Cell::from("failed".to_owned())];
+                    row.push(Cell::from("failed".to_owned()));
                     row.extend((0..13).map(|_| Cell::from(None::<f64>)));
                     row.push(Cell::from(error.to_string()));
                     row
@@ -195,12 +201,11 @@ impl<'a> CurvesReport<'a> {
                     let band = fit.band(omega);
                     let values = band.map(|band| with_ends(omega, &band).map(Some));
                     let contact = fit.contact_point_m;
-                    let mut row = vec![
-                        name,
+                    row.extend([
                         Cell::from("converged".to_owned()),
                         Cell::from(fit.law().form.in_words()),
                         Cell::from(fit.law().weight),
-                    ];
+                    ]);
                     row.extend(values.unwrap_or([None; 7]).map(Cell::from));
                     row.extend([
                         Cell::from(contact.value),
@@ -388,6 +393,12 @@ fn lines_of(Found { curve, fit }: &Found<'_>) -> Vec<String> {
     lines.push(format!(
         "The contact lasts for what \u{3c9} = {from} to {to} are; outside, the law is an extrapolation."
     ));
+    if fit.is_pulled {
+        lines.push(
+            "Note: the retraction pulls, as no law without attraction does: it is left out."
+                .to_owned(),
+        );
+    }
     if fit.nuisances.is_empty() {
         lines.push(
             "Note: there is no part before contact: offset, drift and drag are taken as none."
@@ -457,6 +468,7 @@ fn of_curve(Found { curve, fit }: &Found<'_>) -> Map<String, Value> {
         "degrees_of_freedom": fit.degrees_of_freedom,
         "reduced_chi_squared": fit.reduced_chi_squared,
         "intervals_widened_by": fit.inflation,
+        "retraction_left_out": fit.is_pulled,
         "window_rad_per_s": fit.window_rad_per_s,
         "moduli": moduli.collect::<Vec<_>>(),
     });

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::data_file::{Column, DataFile, Holes, TIME};
-use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source};
 use crate::force_curve::ForceCurve;
 use crate::force_curve::resolved::Probe;
+use crate::input::data_file::{Column, DataFile, Holes, TIME};
+use crate::input::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source};
 use crate::quantity::Dimension::{Force, Length};
 
 const CURVE: Column = Column::pure(
@@ -82,8 +82,7 @@ pub(super) fn parse(
     let of_row = column(5).unwrap_or_else(|| vec![0.0; time_s.len()]);
     let mut curves: BTreeMap<u64, ForceCurve> = BTreeMap::new();
     let problems = Problems::new();
-    let stem = std::path::Path::new(name).file_stem();
-    let stem = stem.map_or_else(|| name.to_owned(), |stem| stem.display().to_string());
+    let stem = super::stem(name);
     let many = table.has(5);
     for (row, number) in of_row.iter().enumerate() {
         let curve = curves.entry(number.to_bits()).or_default();
