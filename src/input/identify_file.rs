@@ -76,35 +76,16 @@ fn curves_plan(
     let bodies = bodies_block::read(root);
     let indenter = given.indenter(root);
     let probe = root.table_or(&PROBE, Probe::default(), |t| block::read(t, None));
+    refuse_beside_curves(root);
     let problems = root.problems();
-    for (key, because) in [
-        (
-            &MEASURED_DRIVE,
-            "a force curve prescribes its own indentation",
-        ),
-        (&keys::LAYER, "force curves are of half-spaces"),
-        (
-            &keys::ADHESION,
-            "force curves are fitted without attraction",
-        ),
-    ] {
-        if let Some(place) = root.key_location(key) {
-            let message = format!("`[{}]` beside force curves", key.name);
-            problems
-                .at(&place, message)
-                .because(because)
-                .help("remove this table");
-        }
-    }
     let place_of_indenter = root.key_location(&keys::INDENTER);
     if let (Some(place), Some(indenter)) = (place_of_indenter, &indenter)
         && indenter.axisymmetric().is_none()
     {
         let because = indenter.not_axisymmetric_because();
-        let because = format!("the {} {because}", indenter.shape());
         problems
             .at(&place, "force curves are of bodies of revolution")
-            .because(because)
+            .because(format!("the {} {because}", indenter.shape()))
             .help("give a sphere, a cone, a flat punch or a power law");
         return None;
     }
@@ -142,6 +123,29 @@ fn curves_plan(
         files: names,
         curves,
     })
+}
+
+/// Refuses tables that say nothing of force curves.
+fn refuse_beside_curves(root: &mut TableReader<'_>) {
+    for (key, because) in [
+        (
+            &MEASURED_DRIVE,
+            "a force curve prescribes its own indentation",
+        ),
+        (&keys::LAYER, "force curves are of half-spaces"),
+        (
+            &keys::ADHESION,
+            "force curves are fitted without attraction",
+        ),
+        (&MODEL_CYCLE, "a force curve has no cycles"),
+        (&keys::SOLVER, "springs and steps follow from the curve"),
+    ] {
+        if let Some(place) = root.key_location(key) {
+            let message = format!("`[{}]` beside force curves", key.name);
+            let report = root.problems().at(&place, message);
+            report.because(because).help("remove this table");
+        }
+    }
 }
 
 fn driven_plan(

@@ -43,12 +43,11 @@ fn every_example_runs_to_its_end() {
         let text = fs::read_to_string(&path).unwrap();
         let command = command(&text);
         let out = path.file_stem().unwrap().display();
-        let mut run = format!(
-            "{command} '{}' --quiet --out {out} --set solver.cells=24",
-            path.display()
-        );
+        let mut run = format!("{command} '{}' --quiet --out {out}", path.display());
+        let is_curve = text.contains("\ncurve = ");
         // An identification is coarse by itself, and a periodic surface brings its own cells.
         for (is_of, set) in [
+            (!is_curve, "solver.cells=24"),
             (command != "identify", "solver.springs=100"),
             (command == "sweep", "cycle.steps=40"),
             (text.contains("edge = \"periodic\""), "indenter.cells=32"),
@@ -67,6 +66,9 @@ fn every_example_runs_to_its_end() {
                 // Where an attraction moves the edge there are no profiles, and the pull is told.
                 let has_profiles = place.has(&format!("{out}/figures/profiles.csv"));
                 assert!(has_profiles != summary["separation"].is_object(), "{out}");
+            }
+            "identify" if is_curve => {
+                assert_eq!(summary["law"], "power-law", "{out}");
             }
             "identify" => {
                 let branches = 3 - usize::from(path.ends_with("identify-creep.toml"));

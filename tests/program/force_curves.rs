@@ -37,13 +37,12 @@ shape = "sphere"
 radius = "2.5 um"
 "#;
 
-/// Value and whether the interval holds a number.
+/// A value, and whether it is within three standard deviations of a number: one noise alone does not tell of 95 %.
 fn of(found: &Value, exact: f64) -> (f64, bool) {
     let number = |key: &str| found[key].as_f64().unwrap();
-    (
-        number("value"),
-        number("low") <= exact && exact <= number("high"),
-    )
+    let deviation = (number("high") - number("low")) / (2.0 * 1.96);
+    let value = number("value");
+    (value, (value - exact).abs() <= 3.0 * deviation)
 }
 
 /// Time, force and indentation of a history, with a part before contact, an offset, a drift and noise.

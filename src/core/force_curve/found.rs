@@ -202,6 +202,7 @@ impl Fitted<'_> {
         let problem = OfForm {
             fitted: self,
             form: *form,
+            is_near: true,
         };
         let unknowns = &solution.unknowns;
         let mut columns = problem.columns(unknowns)?;

@@ -2,22 +2,25 @@
 //!
 //! # How
 //!
-//! 1. Samples that lie on a line are one point, the mean of them, with the noise that the scatter of neighbours tells ([`record`]).
+//! 1. The indentation is freed of its noise: straight between knots, as few as leave nothing but noise. Samples that then lie on a line are
+//!    one point, the mean of them, with the noise of the force that the scatter of neighbours tells ([`record`]).
 //! 2. The indentation is prescribed, and the force follows from the springs of the axisymmetric engine ([`springs`]), loading and
 //!    unloading, as often as they come.
 //! 3. Unknown are the parameters of a law ([`crate::material::law`]), where the indentation begins, and, where the curve has a part before
 //!    contact, offset and drift of the force, and a drag where the speed changes: all at once, by least squares. What is linear is
 //!    projected out (G. H. Golub, V. Pereyra, SIAM J. Numer. Anal. 10 (1973) 413).
-//! 4. Noise of the indentation counts by the stiffness of the contact at that point (effective variance: J. Orear, Am. J. Phys. 50
-//!    (1982) 912).
-//! 5. Laws are compared by the criterion of G. Schwarz (Ann. Statist. 6 (1978) 461). The band of E* has in it what the laws that are
-//!    nearly as good say otherwise, each by its weight.
+//! 4. A retraction that pulls, as no law without attraction does, is left out.
+//! 5. Laws are compared by the criterion of G. Schwarz (Ann. Statist. 6 (1978) 461). The band of E* has in it what the others say otherwise,
+//!    each by the weight that H. Akaike's criterion gives it (K. P. Burnham, D. R. Anderson, *Model Selection and Multimodel Inference*,
+//!    Springer 2002): that of Schwarz, which finds the law, leaves too little to laws of more parameters for a band that is to hold the
+//!    truth. Where the best law misses the curve, all intervals are wider by the root of chi squared per degree of freedom.
 
 mod fit;
 mod found;
 mod problem;
 pub mod record;
 pub mod resolved;
+mod smooth;
 mod springs;
 mod touch;
 

@@ -12,6 +12,10 @@ use crate::material::law::{Form, Scale};
 use crate::numerics::levenberg_marquardt::{Ending, Problem, Solution, minimise};
 use crate::quantity::Dimension;
 
+const ON_THE_WAY: Ending = Ending {
+    iterations: 20,
+    enough: 1e-3,
+};
 const EXACTLY: Ending = Ending {
     iterations: 30,
     enough: 1e-5,
@@ -26,10 +30,10 @@ const STEP: f64 = 0.01;
 const STEP_OF_CONTACT: f64 = 2e-3;
 
 /// The same on the way to the solution, to one side alone.
-const FORWARD: f64 = 1e-3;
+const AHEAD: f64 = 1e-3;
 
 /// By how many times a start may be farther from the curve than the best and be followed too.
-const NEARLY: f64 = 1.5;
+const NEARLY: f64 = 4.0;
 
 /// A curve as a least squares problem for any law.
 pub(super) struct Fitted<'a> {
@@ -51,6 +55,8 @@ pub(super) struct Fitted<'a> {
 pub(super) struct OfForm<'a> {
     pub(super) fitted: &'a Fitted<'a>,
     pub(super) form: Form,
+    /// Whether derivatives are to be exact: on the way to a solution they are cheaper.
+    pub(super) is_near: bool,
 }
 
 impl<'a> Fitted<'a> {
@@ -103,10 +109,10 @@ impl<'a> Fitted<'a> {
         let series = form.series_within(&form.values(unknowns), self.times_s)?;
         let contact = self.plan.contact(&series)?;
         let contact_point_m = contact_part * self.scale_m;
-        let depths = self.points.indentation_m.iter();
+        let depths = self.points.path_m.iter();
         let depths: Vec<f64> = depths.map(|d| d - contact_point_m).collect();
-        self.springs
-            .response(&contact, &self.points.time_s, &depths)
+        let force_n = (self.springs).response(&contact, &self.points.path_s, &depths)?;
+        Some(self.points.on_path.iter().map(|k| force_n[*k]).collect())
     }
 
     /// Computed less measured forces in their standard deviations.
@@ -136,20 +142,23 @@ impl<'a> Fitted<'a> {
         form: Form,
         (modulus_pa, window_s, contact_point_m): (f64, (f64, f64), f64),
     ) -> Option<Solution<Vec<f64>>> {
-        let problem = OfForm { fitted: self, form };
-        let mut starts: Vec<(f64, Vec<f64>)> = form
-            .starts(modulus_pa, window_s)
-            .into_iter()
-            .filter_map(|mut start| {
-                start.push(contact_point_m / self.scale_m);
-                self.scaled(form, start)
-            })
-            .collect();
+        let problem = |is_near: bool| OfForm {
+            fitted: self,
+            form,
+            is_near,
+        };
+        let starts = form.starts(modulus_pa, window_s).into_iter();
+        let starts = starts.filter_map(|mut start| {
+            start.push(contact_point_m / self.scale_m);
+            self.scaled(form, start)
+        });
+        let mut starts: Vec<(f64, Vec<f64>)> = starts.collect();
         starts.sort_by(|a, b| a.0.total_cmp(&b.0));
         let nearly = NEARLY * starts.first()?.0;
         let all = starts.iter().take(2).filter(|(left, _)| *left <= nearly);
-        let found = all.filter_map(|(_, start)| minimise(&problem, start, EXACTLY));
-        found.min_by(|a, b| a.squares().total_cmp(&b.squares()))
+        let found = all.filter_map(|(_, start)| minimise(&problem(false), start, ON_THE_WAY));
+        let found = found.min_by(|a, b| a.squares().total_cmp(&b.squares()))?;
+        minimise(&problem(true), &found.unknowns, EXACTLY)
     }
 
     /// A start with all its moduli multiplied so that it comes nearest to the curve, and the sum of squares that are left.
@@ -172,6 +181,17 @@ impl<'a> Fitted<'a> {
 }
 
 impl OfForm<'_> {
+    /// Derivatives of the residuals by differences to one side.
+    fn columns_ahead(&self, unknowns: &[f64]) -> Option<Vec<DVector<f64>>> {
+        let here = self.fitted.off(self.form, unknowns)?;
+        let column = |k: usize| {
+            let mut moved = unknowns.to_vec();
+            moved[k] += AHEAD;
+            Some((self.fitted.off(self.form, &moved)? - &here) / AHEAD)
+        };
+        (0..unknowns.len()).map(column).collect()
+    }
+
     /// Derivatives of the residuals before anything is projected out.
     pub(super) fn columns(&self, unknowns: &[f64]) -> Option<Vec<DVector<f64>>> {
         let last = unknowns.len() - 1;
@@ -197,15 +217,12 @@ impl Problem for OfForm<'_> {
     }
 
     fn derivatives(&self, unknowns: &Vec<f64>) -> Option<DMatrix<f64>> {
-        let here = self.fitted.off(self.form, unknowns)?;
-        let column = |k: usize| {
-            let mut moved = unknowns.clone();
-            moved[k] += FORWARD;
-            let off = self.fitted.off(self.form, &moved)? - &here;
-            Some(self.fitted.projected(off / FORWARD))
+        let columns = match self.is_near {
+            true => self.columns(unknowns)?,
+            false => self.columns_ahead(unknowns)?,
         };
-        let columns: Option<Vec<DVector<f64>>> = (0..unknowns.len()).map(column).collect();
-        Some(DMatrix::from_columns(&columns?))
+        let columns = columns.into_iter().map(|c| self.fitted.projected(c));
+        Some(DMatrix::from_columns(&columns.collect::<Vec<_>>()))
     }
 
     fn clamp(&self, place: usize, value: f64) -> f64 {

@@ -12,6 +12,9 @@ const FEWEST_BEFORE: usize = 4;
 /// The pull of a retraction that is no noise, drift or drag, as a part of the largest force.
 const PULL: f64 = 0.1;
 
+/// The same of a curve that ends while it is held.
+const HELD: f64 = 0.3;
+
 /// The part of the depth above which an indenter has not been retracted yet.
 const RETRACTED: f64 = 0.95;
 
@@ -114,16 +117,17 @@ pub(super) fn touch(profile: &dyn Axisymmetric, points: &Points) -> Result<Touch
 
 /// The first point of a retraction that pulls, as no law without attraction does; `None` where nothing pulls.
 pub(super) fn pulled_from(points: &Points, touch: &Touch) -> Option<usize> {
-    let before = &points.force_n[..touch.before];
-    let count = before.len().max(1) as f64;
-    let baseline_n = before.iter().sum::<f64>() / count;
+    let mean = |forces: &[f64]| forces.iter().sum::<f64>() / forces.len().max(1) as f64;
+    let before_n = mean(&points.force_n[..touch.before]);
     let deepest = (0..points.indentation_m.len())
         .max_by(|a, b| points.indentation_m[*a].total_cmp(&points.indentation_m[*b]))?;
-    let largest_n = largest(&points.force_n) - baseline_n;
-    let pull_n = points.force_n[deepest..]
-        .iter()
-        .map(|force| baseline_n - force);
-    let is_pulled = pull_n.fold(0.0, f64::max) > PULL * largest_n;
+    let largest_n = largest(&points.force_n) - before_n;
+    // Drift and drag have moved the baseline of the end, but not by much.
+    let back = &points.force_n[deepest..];
+    let after_n = mean(&back[back.len() - back.len().min(FEWEST_BEFORE)..]);
+    let least_n = back.iter().copied().fold(f64::INFINITY, f64::min);
+    let is_pulled =
+        before_n.min(after_n) - least_n > PULL * largest_n || before_n - after_n > HELD * largest_n;
     let depth_m = points.indentation_m[deepest] - touch.contact_point_m;
     let is_deep = |d: &f64| *d > touch.contact_point_m + RETRACTED * depth_m;
     let last = points.indentation_m.iter().rposition(is_deep)?;

@@ -340,7 +340,7 @@ impl Fractional {
                 time_s: self.time_s,
             }],
             false => {
-                let (ends, spring) = ((shortest_s / 8.0, longest_s * 8.0), 1e3 * longest_s);
+                let (ends, spring) = ((shortest_s / 8.0, longest_s * 8.0), 1e6 * longest_s);
                 let size = self.complex_modulus(1.0 / longest_s).norm();
                 trapezoidal(|log| self.spectrum(log), 1.0, ends, size / spring)
             }

@@ -294,7 +294,7 @@ impl<'a> CurvesReport<'a> {
 }
 
 /// The frequency (rad/s) in the middle of what a curve says something about.
-fn middle(fit: &CurveFit) -> f64 {
+pub fn middle(fit: &CurveFit) -> f64 {
     (fit.window_rad_per_s.0 * fit.window_rad_per_s.1).sqrt()
 }
 
@@ -335,6 +335,10 @@ pub fn named(fit: &CurveFit) -> Vec<(String, Estimate, Option<Dimension>)> {
 
 /// A name without its unit, which stands with the value.
 fn in_words(name: &str, dimension: Option<Dimension>) -> String {
+    let of_drift = name.strip_suffix("_n_per_s");
+    if let Some(drift) = of_drift {
+        return format!("{} / (N/s)", drift.replace('_', " "));
+    }
     let unit = name.rfind('_').filter(|_| dimension.is_some());
     let drag = name.find("_n_s_per_m").or(unit);
     name[..drag.unwrap_or(name.len())].replace('_', " ")
