@@ -4,7 +4,7 @@
 //!
 //! 1. The indentation is freed of its noise: straight between knots, as few as leave nothing but noise. Samples that then lie on a line are
 //!    one point, the mean of them, with the noise of the force that the scatter of neighbours tells ([`record`]).
-//! 2. The indentation is prescribed, and the force follows from the springs of the axisymmetric engine ([`springs`]), loading and
+//! 2. The indentation is prescribed, and the force follows from the springs of the axisymmetric engine, loading and
 //!    unloading, as often as they come.
 //! 3. Unknown are the parameters of a law ([`crate::material::law`]), where the indentation begins, and, where the curve has a part before
 //!    contact, offset and drift of the force, and a drag where the speed changes: all at once, by least squares. What is linear is

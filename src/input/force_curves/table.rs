@@ -39,45 +39,16 @@ pub(super) fn parse(
     let table = file.columns(&COLUMNS, Holes::PassedOver, without_number)?;
     let column = |place: usize| table.has(place).then(|| table.column(place));
     let [force_n, indentation_m, piezo_m, deflection_m] = [1, 2, 3, 4].map(column);
-    let header = file.first_line();
-    let spring = probe.spring_constant_n_per_m;
-    let force_n = match (force_n, &deflection_m, spring) {
-        (Some(force_n), ..) => force_n,
-        (None, Some(deflection_m), Some(spring)) => times(deflection_m, spring),
-        (None, Some(_), None) => {
-            return Err(Diagnostic::at(&header, "a deflection, and no spring constant")
-                .because("the force is their product")
-                .help("add `[instrument]` with `spring_constant = \"0.1 N/m\"`, or a column `force_n`")
-                .into());
-        }
-        (None, None, _) => {
-            return Err(Diagnostic::at(&header, "no column `force_n` and no column `deflection_m`")
-                .help("give `time_s,force_n,indentation_m`, or `time_s,piezo_m,deflection_m` with the spring constant in `[instrument]`")
-                .into());
-        }
+    let signals = Signals {
+        header: file.first_line(),
+        force_n,
+        indentation_m,
+        piezo_m,
+        deflection_m,
+        spring: probe.spring_constant_n_per_m,
     };
-    let indentation_m = match (indentation_m, &piezo_m) {
-        (Some(indentation_m), _) => indentation_m,
-        (None, Some(piezo_m)) => {
-            let deflection_m = match (deflection_m, spring) {
-                (Some(deflection_m), _) => deflection_m,
-                (None, Some(spring)) => times(&force_n, 1.0 / spring),
-                (None, None) => {
-                    return Err(Diagnostic::at(&header, "a piezo position and a force, and no spring constant")
-                        .because("the indentation is the position less the deflection")
-                        .help("add `[instrument]` with `spring_constant = \"0.1 N/m\"`, or a column `deflection_m` or `indentation_m`")
-                        .into());
-                }
-            };
-            let both = piezo_m.iter().zip(&deflection_m);
-            both.map(|(piezo, deflection)| piezo - deflection).collect()
-        }
-        (None, None) => {
-            return Err(Diagnostic::at(&header, "no column `indentation_m` and no column `piezo_m`")
-                .help("give `time_s,force_n,indentation_m`, or `time_s,piezo_m,deflection_m` with the spring constant in `[instrument]`")
-                .into());
-        }
-    };
+    let (force_n, indentation_m) = (signals.force_n()?, signals.indentation_m()?);
+    let piezo_m = signals.piezo_m;
     let time_s = table.column(0);
     let of_row = column(5).unwrap_or_else(|| vec![0.0; time_s.len()]);
     let mut curves: BTreeMap<u64, ForceCurve> = BTreeMap::new();
@@ -113,6 +84,65 @@ pub(super) fn parse(
             .into());
     }
     problems.into_result(Some(curves.into_values().collect()))
+}
+
+/// What a table has, and the spring constant (N/m), where it is known.
+struct Signals {
+    header: Location,
+    force_n: Option<Vec<f64>>,
+    indentation_m: Option<Vec<f64>>,
+    piezo_m: Option<Vec<f64>>,
+    deflection_m: Option<Vec<f64>>,
+    spring: Option<f64>,
+}
+
+const COLUMNS_OF_A_CURVE: &str = "give `time_s,force_n,indentation_m`, or `time_s,piezo_m,deflection_m` with the spring constant in \
+                                  `[instrument]`";
+
+impl Signals {
+    fn refused(&self, what: &str) -> Diagnostic {
+        Diagnostic::at(&self.header, what)
+    }
+
+    /// The force, or what a deflection says of it.
+    fn force_n(&self) -> Result<Vec<f64>, Diagnostic> {
+        match (&self.force_n, &self.deflection_m, self.spring) {
+            (Some(force_n), ..) => Ok(force_n.clone()),
+            (None, Some(deflection_m), Some(spring)) => Ok(times(deflection_m, spring)),
+            (None, Some(_), None) => Err(self
+                .refused("a deflection, and no spring constant")
+                .because("the force is their product")
+                .help("add `[instrument]` with `spring_constant = \"0.1 N/m\"`, or a column `force_n`")),
+            (None, None, _) => Err(self
+                .refused("no column `force_n` and no column `deflection_m`")
+                .help(COLUMNS_OF_A_CURVE)),
+        }
+    }
+
+    /// The indentation, or the position of the piezo less the deflection.
+    fn indentation_m(&self) -> Result<Vec<f64>, Diagnostic> {
+        let piezo_m = match (&self.indentation_m, &self.piezo_m) {
+            (Some(indentation_m), _) => return Ok(indentation_m.clone()),
+            (None, Some(piezo_m)) => piezo_m,
+            (None, None) => {
+                return Err(self
+                    .refused("no column `indentation_m` and no column `piezo_m`")
+                    .help(COLUMNS_OF_A_CURVE));
+            }
+        };
+        let deflection_m = match (&self.deflection_m, &self.force_n, self.spring) {
+            (Some(deflection_m), ..) => deflection_m.clone(),
+            (None, Some(force_n), Some(spring)) => times(force_n, 1.0 / spring),
+            _ => {
+                return Err(self
+                    .refused("a piezo position and a force, and no spring constant")
+                    .because("the indentation is the position less the deflection")
+                    .help("add `[instrument]` with `spring_constant = \"0.1 N/m\"`, or a column `deflection_m` or `indentation_m`"));
+            }
+        };
+        let both = piezo_m.iter().zip(&deflection_m);
+        Ok(both.map(|(piezo, deflection)| piezo - deflection).collect())
+    }
 }
 
 fn times(values: &[f64], factor: f64) -> Vec<f64> {
