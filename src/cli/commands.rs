@@ -53,7 +53,7 @@ enum Command {
     Analyse(analyse::AnalyseFlags),
     /// Follow one drive history, load or approach against time
     Simulate(simulate::SimulateFlags),
-    /// Find the material from measured cycles, creep or relaxation: moduli and times with confidence bands
+    /// Find the material from measured cycles, creep, relaxation or force curves: moduli and times with confidence bands
     Identify(identify::IdentifyFlags),
     /// Recompute the figures of the base paper and compare every number with its exact value
     Reproduce(reproduce::ReproduceFlags),

@@ -28,10 +28,12 @@ use crate::sweep::store::manifest::{Kind, Target};
 Examples:
   contact-dma identify sweeps/identify-polymer.toml
   contact-dma identify measured.toml --set identify.branches=2 --out /tmp/material
+  contact-dma identify sweeps/identify-curve.toml
 
 The file names a table of measured cycles under [identify], with the columns of sweep.csv, and
-has the [indenter], the [drive] and the poisson_ratio of the measurement. The folder opens with
-index.html, one page of everything; material.toml is a [material] block for a sweep.")]
+has the [indenter], the [drive] and the poisson_ratio of the measurement. Or it names force curves
+(curve = ...), which have no [drive]. The folder opens with index.html, one page of everything;
+material.toml is a [material] block for a sweep.")]
 pub(super) struct IdentifyFlags {
     #[command(flatten)]
     run: RunFlags,

@@ -17,7 +17,7 @@ use super::{
     segments_block, solver_block,
 };
 use crate::drive::segments::SEGMENTS;
-use crate::force_curve::resolved::{CURVE, CurvesPlan, LAW, Probe, forms};
+use crate::force_curve::resolved::{CURVE, CurvesPlan, LAW, Probe, SAMPLES, forms};
 use crate::force_curve::{self, CurvePlan};
 use crate::identify::data::{Measurements, TableColumns};
 use crate::identify::resolved::{
@@ -93,6 +93,7 @@ fn curves_plan(
     let files: Option<Located<Vec<String>>> = table.read(&CURVE);
     let places = table.places_in(CURVE.name);
     let laws: Option<Option<Vec<String>>> = table.value(&LAW);
+    let samples = table.value(&SAMPLES);
     table.finish();
     let (probe, files, branches) = (probe?, files?, branches?);
     let laws = laws?.unwrap_or_else(|| vec!["auto".to_owned()]);
@@ -116,6 +117,7 @@ fn curves_plan(
             indenter_material: bodies?.indenter_material,
             forms: forms(&laws, branches),
             drag_n_s_per_m: probe.drag_n_s_per_m,
+            samples: samples?,
         },
         probe,
         laws,

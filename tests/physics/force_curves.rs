@@ -209,6 +209,7 @@ fn judge(kind: &str, body: fn(&mut Random, &Motion) -> (Truth, Material)) -> Vec
             indenter_material: None,
             forms: Form::all(4),
             drag_n_s_per_m: None,
+            samples: 0,
         };
         let found = fit(&plan, &made.curve, &AtomicBool::new(false)).unwrap();
         let counts = inside(&found, &truth, made.contact_point_m);
@@ -276,6 +277,7 @@ fn a_curve_without_noise_gives_the_solid_back() {
         indenter_material: None,
         forms: Form::all(1),
         drag_n_s_per_m: None,
+        samples: 0,
     };
     let found = fit(&plan, &made.curve, &AtomicBool::new(false)).unwrap();
     let law = found.law();

@@ -194,6 +194,51 @@ fn many_curves_are_a_table_and_one_that_is_none_is_named() {
     assert_eq!(place.bytes("map/figures/moduli-of-curves.svg"), drawn);
 }
 
+#[test]
+fn fits_with_the_noise_drawn_anew_are_replicas_from_which_a_sweep_has_a_band() {
+    let place = Place::new();
+    // A solid of 1 kPa and 4 kPa that relax in 0.3 s, in place of the gel.
+    let solid = "[material]\npoisson_ratio = 0.5\n[material.relaxation]\nmodulus = \"longitudinal\"\nequilibrium = \"1 kPa\"\nbranches = \
+                 [{ modulus = \"4 kPa\", time = \"0.3 s\" }]\n";
+    let known = GEL.find("[material]").unwrap()..GEL.find("[indenter]").unwrap();
+    place.put("solid.toml", GEL.replace(&GEL[known], solid));
+    place.done("simulate solid.toml --quiet --out solid");
+    let rows = measured(&place, "solid");
+    let rows = rows
+        .iter()
+        .map(|[t, force_n, depth_m]| format!("{t},{force_n:e},{depth_m:e}\n"));
+    let header = "time_s,force_n,indentation_m\n".to_owned();
+    place.put("curve.csv", header + &rows.collect::<String>());
+    let asked = "law = \"standard-solid\"\nsamples = 16\n[material]";
+    let identify = IDENTIFY
+        .replace("CURVE", "curve.csv")
+        .replace("[material]", asked);
+    place.put("one.toml", identify);
+    place.done("identify one.toml --quiet --out one");
+    let ensemble = place.table("one/ensemble.csv");
+    assert_eq!(ensemble.len(), 3 * 16);
+    // As wide as the band says.
+    let moduli = ensemble.numbers("storage_modulus_pa");
+    let middle: Vec<f64> = moduli.iter().skip(1).step_by(3).copied().collect();
+    let mean = middle.iter().sum::<f64>() / 16.0;
+    let squares: f64 = middle.iter().map(|pa| (pa / mean - 1.0).powi(2)).sum();
+    let drawn = 1.96 * (squares / 15.0).sqrt();
+    let curves = place.table("one/curves.csv");
+    let of = |name: &str| curves.number(0, name);
+    let band = (of("storage_modulus_high_pa") / of("storage_modulus_pa")).ln();
+    assert!((0.5..2.0).contains(&(drawn / band)), "{drawn} {band}");
+    let block = place.text("one/material.toml");
+    let sweep = "[drive]\nmean = \"1 nN\"\namplitude = \"0.5 nN\"\n[sweep]\nangular_frequency = [\"3 rad/s\"]\n";
+    let indenter = "[indenter]\nshape = \"sphere\"\nradius = \"2.5 um\"\n";
+    place.put(
+        "sweep.toml",
+        format!("title = \"t\"\n{block}\n{indenter}{sweep}"),
+    );
+    place.done("sweep sweep.toml --quiet --out swept");
+    let swept = place.table("swept/sweep.csv");
+    assert!(swept.number(0, "energy_loss_material_error_j") > 0.0);
+}
+
 /// The identification of a file of `tests/instruments`.
 fn instrument(file: &str) -> String {
     let file = Path::new(env!("CARGO_MANIFEST_DIR"))

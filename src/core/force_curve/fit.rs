@@ -26,6 +26,8 @@ pub struct CurvePlan {
     pub forms: Vec<Form>,
     /// The drag on the probe, where it is known.
     pub drag_n_s_per_m: Option<f64>,
+    /// How often the curve is fitted again with its noise drawn anew.
+    pub samples: usize,
 }
 
 /// Why a curve was not fitted.
@@ -129,6 +131,7 @@ pub fn fit(
         false => {
             let mut found = fitted.judged(&found, window_s)?;
             found.is_pulled = pulled_from.is_some();
+            found.ensemble = fitted.ensemble(&found, plan.samples);
             Ok(found)
         }
     }

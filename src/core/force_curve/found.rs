@@ -1,9 +1,11 @@
 //! What was found of a curve: its laws with their weights and intervals, and the moduli with their bands.
 
 use nalgebra::{DMatrix, DVector};
+use num_complex::Complex;
+use rayon::prelude::*;
 
 use super::fit::CurveError;
-use super::problem::{Fitted, OfForm, WIDEST_LOGARITHM};
+use super::problem::{EXACTLY, Fitted, OfForm, WIDEST_LOGARITHM};
 use super::record::Points;
 use super::touch::Nuisance;
 use crate::identify::noise::is_missed;
@@ -12,7 +14,8 @@ use crate::identify::{ModulusBand, UNDETERMINED};
 use crate::material::Relaxation;
 use crate::material::law::Form;
 use crate::measured::statistics::{NORMAL, student};
-use crate::numerics::levenberg_marquardt::Solution;
+use crate::numerics::levenberg_marquardt::{Solution, minimise};
+use crate::numerics::random::Noise;
 
 /// A number with the interval that holds it in 95 cases of 100.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,6 +46,23 @@ pub struct FittedLaw {
     half_width: f64,
 }
 
+/// What a curve with its noise drawn anew gives.
+#[derive(Debug, Clone)]
+pub struct Drawn {
+    pub form: Form,
+    values: Vec<f64>,
+    pub contact_point_m: f64,
+    /// The series that stands for the law over the times of the curve, and a decade beyond.
+    pub series: Relaxation,
+}
+
+impl Drawn {
+    /// E* (Pa) at an angular frequency (rad/s).
+    pub fn complex_modulus_pa(&self, angular_frequency_rad_per_s: f64) -> Option<Complex<f64>> {
+        (self.form).complex_modulus_pa(&self.values, angular_frequency_rad_per_s)
+    }
+}
+
 /// What was found of a curve.
 #[derive(Debug, Clone)]
 pub struct CurveFit {
@@ -64,6 +84,8 @@ pub struct CurveFit {
     pub error_n: Vec<f64>,
     /// Whether the retraction pulls, and is left out.
     pub is_pulled: bool,
+    /// What is found where the noise falls otherwise, each alike in probability; empty where none was asked for.
+    pub ensemble: Vec<Drawn>,
     times_s: (f64, f64),
 }
 
@@ -162,6 +184,7 @@ impl Fitted<'_> {
             points: self.points.clone(),
             error_n: self.sigma_n.clone(),
             is_pulled: false,
+            ensemble: Vec::new(),
             times_s: self.times_s,
             laws: laws.into_iter().map(|(law, _)| law).collect(),
         })
@@ -248,6 +271,39 @@ impl Fitted<'_> {
         Some((law, beside))
     }
 
+    /// A parametric bootstrap (B. Efron, R. J. Tibshirani, *An Introduction to the Bootstrap*, Chapman & Hall 1993, section 6.5): the computed
+    /// curve with noise as the best law leaves it, to which a law is fitted, each as often as its weight in the band says.
+    pub(super) fn ensemble(&self, found: &CurveFit, samples: usize) -> Vec<Drawn> {
+        const SEED: u64 = 1;
+        let draw = |number: usize| {
+            let mut random = Noise::stream(SEED, number as u64);
+            let law = found.drawn_law(random.uniform());
+            let mut points = self.points.clone();
+            let computed = found.computed_n.iter().zip(&self.sigma_n);
+            for (force_n, (computed_n, sigma_n)) in points.force_n.iter_mut().zip(computed) {
+                *force_n = computed_n + found.inflation * sigma_n * random.normal();
+            }
+            let fitted = self.with_points(&points);
+            let problem = OfForm {
+                fitted: &fitted,
+                form: law.form,
+                is_near: true,
+            };
+            let mut start = law.unknowns.clone();
+            start.push(law.contact_point_m / self.scale_m);
+            let unknowns = minimise(&problem, &start, EXACTLY)?.unknowns;
+            let (contact_part, unknowns) = unknowns.split_last()?;
+            let values = law.form.values(unknowns);
+            Some(Drawn {
+                form: law.form,
+                series: law.form.series_within(&values, beyond(self.times_s))?,
+                values,
+                contact_point_m: contact_part * self.scale_m,
+            })
+        };
+        (0..samples).into_par_iter().filter_map(draw).collect()
+    }
+
     /// How much of each nuisance there is: what is linear follows from the residuals without it.
     fn added(&self, nuisances: &[DVector<f64>], off: &DVector<f64>) -> Option<Vec<f64>> {
         if nuisances.is_empty() {
@@ -305,6 +361,16 @@ impl FittedLaw {
 }
 
 impl CurveFit {
+    /// The law at a share of the sum of all weights.
+    fn drawn_law(&self, share: f64) -> &FittedLaw {
+        let mut left = share;
+        let law = self.laws.iter().find(|law| {
+            left -= law.akaike_weight;
+            left < 0.0
+        });
+        law.unwrap_or(self.law())
+    }
+
     /// The law that is most likely.
     pub fn law(&self) -> &FittedLaw {
         &self.laws[0]
@@ -343,9 +409,12 @@ impl CurveFit {
 
     /// The series that stands for the best law over the times of the curve, and a decade beyond.
     pub fn series(&self) -> Option<Relaxation> {
-        let (finest_s, whole_s) = self.times_s;
         let law = self.law();
-        law.form
-            .series_within(&law.values, (0.1 * finest_s, 10.0 * whole_s))
+        law.form.series_within(&law.values, beyond(self.times_s))
     }
+}
+
+/// Times of a curve and a decade beyond.
+fn beyond((finest_s, whole_s): (f64, f64)) -> (f64, f64) {
+    (0.1 * finest_s, 10.0 * whole_s)
 }

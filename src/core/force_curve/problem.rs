@@ -16,14 +16,14 @@ const ON_THE_WAY: Ending = Ending {
     iterations: 20,
     enough: 1e-3,
 };
-const EXACTLY: Ending = Ending {
+pub(super) const EXACTLY: Ending = Ending {
     iterations: 30,
     enough: 1e-5,
 };
 
 /// The widest that an unknown may go: a modulus of nothing, an exponent of nearly zero or one.
 pub(super) const WIDEST_LOGARITHM: f64 = 80.0;
-const WIDEST_ODDS: f64 = 7.0;
+const WIDEST_ODDS: f64 = 5.3;
 
 /// Steps of unknowns for derivatives; that of the contact point is a part of the indentation.
 const STEP: f64 = 0.01;
@@ -90,6 +90,21 @@ impl<'a> Fitted<'a> {
             fitted.basis.push(column / length);
         }
         fitted
+    }
+
+    /// The same with other forces at its points.
+    pub(super) fn with_points<'b>(&'b self, points: &'b Points) -> Fitted<'b> {
+        Fitted {
+            plan: self.plan,
+            points,
+            springs: self.springs,
+            times_s: self.times_s,
+            scale_m: self.scale_m,
+            sigma_n: self.sigma_n.clone(),
+            nuisances: self.nuisances.clone(),
+            basis: self.basis.clone(),
+            interrupt: self.interrupt,
+        }
     }
 
     /// What one of a nuisance adds to the force of every point, in its standard deviations.

@@ -4,6 +4,7 @@ use super::fit::CurvePlan;
 use super::record::ForceCurve;
 use crate::identify::resolved::{IDENTIFY_BRANCHES, branches_setting};
 use crate::identify::{MOST_BRANCHES, Sought};
+use crate::material::dynamic::MOST_REPLICAS;
 use crate::material::law::{Form, Law};
 use crate::quantity::Dimension;
 use crate::quantity::block::Block as _;
@@ -41,6 +42,9 @@ keys! {
     CURVE = "curve", Kind::Texts(CURVES);
     /// Laws between which the curve chooses: `auto` (the default) for all, a name, or a list of names.
     LAW = "law", Kind::Words(LAWS, LAW_ENTRIES), optional;
+    /// How often the law is fitted again with the noise drawn anew. Of a single curve the fits are replicas of the material, from which a sweep
+    /// has a band about its loss.
+    SAMPLES = "samples", Kind::Integer(0..=MOST_REPLICAS), or 0_usize;
 }
 
 block_with_defaults! {
@@ -100,7 +104,8 @@ pub fn resolved_text(plan: &CurvesPlan) -> String {
     let identify = Table::new("identify")
         .and(CURVE.setting(plan.files.clone()))
         .and(LAW.setting(plan.laws.clone()))
-        .and(IDENTIFY_BRANCHES.setting(branches_setting(plan.branches)));
+        .and(IDENTIFY_BRANCHES.setting(branches_setting(plan.branches)))
+        .and(SAMPLES.setting(plan.fit.samples));
     let blocks = [
         material.toml(),
         contact.indenter,

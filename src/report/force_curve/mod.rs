@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use crate::force_curve::resolved::{CurvesPlan, resolved_text};
-use crate::force_curve::{CurveError, CurveFit, Estimate, FittedLaw, ForceCurve};
+use crate::force_curve::{CurveError, CurveFit, Drawn, Estimate, FittedLaw, ForceCurve};
 use crate::identify::ModulusBand;
 use crate::material::law::{Form, Law, Scale};
 use crate::material::{Material, ModulusKind};
@@ -73,6 +73,9 @@ impl<'a> CurvesReport<'a> {
             (MODULI_TABLE.to_string(), self.moduli()),
         ];
         files.extend(block.map(|block| top("material.toml", block.into())));
+        if self.found().any(|found| !found.fit.ensemble.is_empty()) {
+            files.push(top("ensemble.csv", self.ensemble()));
+        }
         let series = self.single().and_then(|found| found.fit.series());
         files.extend(series.map(|series| top("prony.csv", prony(&series))));
         files
@@ -85,6 +88,10 @@ impl<'a> CurvesReport<'a> {
         let mut body = Material::from_relaxation(fit.series()?, kind, known.clone()).ok()?;
         let (lowest, highest) = fit.window_rad_per_s;
         body.origin.measured_window_s = Some((1.0 / highest, 1.0 / lowest));
+        let drawn = fit.ensemble.iter();
+        let replica =
+            |drawn: &Drawn| Material::from_relaxation(drawn.series.clone(), kind, known.clone());
+        body.origin.replicas = drawn.map(replica).collect::<Result<_, _>>().ok()?;
         let mut text = Text::from(self.plan.title.as_str());
         text.append(self.text());
         Some(text.as_comments() + &material_text(&body))
@@ -246,6 +253,38 @@ impl<'a> CurvesReport<'a> {
         csv(&columns, rows)
     }
 
+    /// `ensemble.csv`: the moduli of every sample, at both ends of the window and in the middle.
+    fn ensemble(&self) -> Vec<u8> {
+        let columns = [
+            "curve",
+            "sample",
+            "law",
+            "contact_point_m",
+            "angular_frequency_rad_per_s",
+            "storage_modulus_pa",
+            "loss_modulus_pa",
+        ];
+        let rows = self.found().flat_map(|Found { curve, fit }| {
+            let (low, high) = fit.window_rad_per_s;
+            let samples = fit.ensemble.iter().enumerate();
+            samples.flat_map(move |(number, drawn)| {
+                [low, middle(fit), high].into_iter().map(move |omega| {
+                    let modulus = drawn.complex_modulus_pa(omega);
+                    cells![
+                        curve.name.clone(),
+                        number + 1,
+                        drawn.form.in_words(),
+                        drawn.contact_point_m,
+                        omega,
+                        modulus.map(|modulus| modulus.re),
+                        modulus.map(|modulus| modulus.im),
+                    ]
+                })
+            })
+        });
+        csv(&columns, rows)
+    }
+
     /// `moduli.csv`: E' and E'' with their 95 % bands, over the curve and a little beyond; of several curves each by its name.
     pub fn moduli(&self) -> Vec<u8> {
         let is_single = self.single().is_some();
@@ -397,6 +436,13 @@ fn lines_of(Found { curve, fit }: &Found<'_>) -> Vec<String> {
     lines.push(format!(
         "The contact lasts for what \u{3c9} = {from} to {to} are; outside, the law is an extrapolation."
     ));
+    if !fit.ensemble.is_empty() {
+        lines.push(format!(
+            "Ensemble: the law fitted {} times with the noise drawn anew; each is a replica of the material, from which a sweep has a band \
+             about its loss.",
+            fit.ensemble.len()
+        ));
+    }
     if fit.is_pulled {
         lines.push(
             "Note: the retraction pulls, as no law without attraction does: it is left out."
@@ -467,6 +513,7 @@ fn of_curve(Found { curve, fit }: &Found<'_>) -> Map<String, Value> {
         "contact_point_m": estimate(&fit.contact_point_m),
         "instrument": nuisances,
         "samples": curve.time_s.len(),
+        "ensemble": fit.ensemble.len(),
         "points": fit.points.time_s.len(),
         "noise_n": fit.points.noise_n,
         "degrees_of_freedom": fit.degrees_of_freedom,
