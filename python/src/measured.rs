@@ -266,10 +266,7 @@ pub fn identify_material<'py>(
         }
         Asked::Curves(plan) => {
             let fits = fit_all(plan, &job.interrupt, &|| {})?;
-            Ok(Identification::of_curves(&CurvesReport {
-                plan,
-                fits: &fits,
-            }))
+            Ok(Identification::of_curves(&CurvesReport::new(plan, &fits)))
         }
     })?;
     let made = made.map_err(|error| match error {

@@ -106,10 +106,7 @@ fn of_series(plan: &IdentifyPlan, interrupt: &AtomicBool) -> Made {
 
 fn of_curves(plan: &CurvesPlan, interrupt: &AtomicBool, done: &(dyn Fn() + Sync)) -> Made {
     let fits = fit_all(plan, interrupt, done)?;
-    Ok(Identification::of_curves(&CurvesReport {
-        plan,
-        fits: &fits,
-    }))
+    Ok(Identification::of_curves(&CurvesReport::new(plan, &fits)))
 }
 
 /// What is wrong with the data is bad input; a cycle that was not found is not.

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::ReportError;
-use super::force_curve::CurvesReport;
+use super::force_curve::{self, CurvesReport};
 use super::identify::{IdentifyReport, summary};
 use super::kept_figures::KeptFigures;
 use super::text::Text;
@@ -38,12 +38,13 @@ impl Identification {
     pub fn of_series(report: &IdentifyReport<'_>) -> Result<Self, IdentificationError> {
         let block = report.block()?;
         let mut summary = summary::summary(report);
+        let files = report.files(&summary, &block);
         summary["material_toml"] = block.as_str().into();
         let mut text = report.text();
         text.append_apart(report.unknowns().into());
         Ok(Self {
             figures: KeptFigures::of_identification(report, &block)?,
-            files: report.files(&block),
+            files,
             summary,
             text,
             missing: 0,
@@ -56,7 +57,8 @@ impl Identification {
     /// A page that could not be made.
     pub fn of_curves(report: &CurvesReport<'_>) -> Result<Self, IdentificationError> {
         let block = report.block();
-        let mut summary = report.summary();
+        let mut summary = force_curve::summary::summary(report);
+        let files = report.files(&summary, block.as_deref());
         summary["material_toml"] = block.as_deref().into();
         let mut text = report.text();
         if let Some(parameters) = report.parameters() {
@@ -64,7 +66,7 @@ impl Identification {
         }
         Ok(Self {
             figures: KeptFigures::of_curves(report, block.as_deref())?,
-            files: report.files(block.as_deref()),
+            files,
             summary,
             text,
             missing: report.missing().len(),

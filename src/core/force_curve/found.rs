@@ -40,7 +40,6 @@ pub struct FittedLaw {
     /// The weight of Akaike, by which it counts in the band of the moduli.
     akaike_weight: f64,
     unknowns: Vec<f64>,
-    values: Vec<f64>,
     contact_point_m: f64,
     directions: Directions,
     half_width: f64,
@@ -191,7 +190,7 @@ impl Fitted<'_> {
     }
 
     fn unknowns(&self, form: Form) -> usize {
-        form.parameters().len() + 1 + self.nuisances.len()
+        form.scales().count() + 1 + self.nuisances.len()
     }
 
     /// The criteria of Schwarz and of Akaike, the latter with the correction for few data; where no law meets the curve, its noise is what
@@ -238,10 +237,9 @@ impl Fitted<'_> {
         let covariance = directions.covariance();
         let half = |k: usize| scatter.half_width * covariance[(k, k)].sqrt();
         let count = unknowns.len() - 1;
-        let parameters = form.parameters();
-        let all = parameters.iter().zip(unknowns).enumerate();
-        let parameters = all.map(|(k, (parameter, unknown))| {
-            let at = |off: f64| parameter.scale.value(unknown + off);
+        let all = form.scales().zip(unknowns).enumerate();
+        let parameters = all.map(|(k, (scale, unknown))| {
+            let at = |off: f64| scale.value(unknown + off);
             let half = half(k).min(WIDEST_LOGARITHM);
             Estimate {
                 value: at(0.0),
@@ -262,7 +260,6 @@ impl Fitted<'_> {
             schwarz,
             weight,
             akaike_weight,
-            values: form.values(&unknowns[..count]),
             unknowns: unknowns[..count].to_vec(),
             contact_point_m,
             directions,
@@ -289,9 +286,7 @@ impl Fitted<'_> {
                 form: law.form,
                 is_near: true,
             };
-            let mut start = law.unknowns.clone();
-            start.push(law.contact_point_m / self.scale_m);
-            let unknowns = minimise(&problem, &start, EXACTLY)?.unknowns;
+            let unknowns = minimise(&problem, &self.unknowns_of(law), EXACTLY)?.unknowns;
             let (contact_part, unknowns) = unknowns.split_last()?;
             let values = law.form.values(unknowns);
             Some(Drawn {
@@ -314,10 +309,14 @@ impl Fitted<'_> {
         Some(added.iter().copied().collect())
     }
 
+    /// Of a law and its contact point.
+    fn unknowns_of(&self, law: &FittedLaw) -> Vec<f64> {
+        let contact_part = law.contact_point_m / self.scale_m;
+        law.unknowns.iter().copied().chain([contact_part]).collect()
+    }
+
     fn computed_n(&self, law: &FittedLaw, added: &[Estimate]) -> Option<Vec<f64>> {
-        let mut unknowns = law.unknowns.clone();
-        unknowns.push(law.contact_point_m / self.scale_m);
-        let mut force_n = self.response(law.form, &unknowns)?;
+        let mut force_n = self.response(law.form, &self.unknowns_of(law))?;
         for (nuisance, estimate) in self.nuisances.iter().zip(added) {
             let column = self.column(*nuisance);
             let added = column.iter().zip(&self.sigma_n);
@@ -398,19 +397,15 @@ impl CurveFit {
                 variances[part] += other.akaike_weight * (apart * apart + wider);
             }
         }
-        let factor = |variance: f64| (half_width * variance.sqrt()).min(60.0).exp();
-        Some(ModulusBand {
-            storage_pa: own[0].0.exp(),
-            loss_pa: own[1].0.exp(),
-            storage_factor: factor(variances[0]),
-            loss_factor: factor(variances[1]),
-        })
+        let ln_moduli = own.map(|(ln, _)| ln);
+        Some(ModulusBand::of(ln_moduli, variances, half_width))
     }
 
     /// The series that stands for the best law over the times of the curve, and a decade beyond.
     pub fn series(&self) -> Option<Relaxation> {
         let law = self.law();
-        law.form.series_within(&law.values, beyond(self.times_s))
+        let values = law.form.values(&law.unknowns);
+        law.form.series_within(&values, beyond(self.times_s))
     }
 }
 

@@ -177,7 +177,7 @@ impl<'a> Fitted<'a> {
     }
 
     /// A start with all its moduli multiplied so that it comes nearest to the curve, and the sum of squares that are left.
-    pub(super) fn scaled(&self, form: Form, mut start: Vec<f64>) -> Option<(f64, Vec<f64>)> {
+    fn scaled(&self, form: Form, mut start: Vec<f64>) -> Option<(f64, Vec<f64>)> {
         let response = self.response(form, &start)?;
         let weighed = |force: &[f64]| {
             let all = force.iter().zip(&self.sigma_n).map(|(f, s)| f / s);
@@ -186,8 +186,8 @@ impl<'a> Fitted<'a> {
         let (computed, measured) = (weighed(&response), weighed(&self.points.force_n));
         let factor = computed.dot(&measured) / computed.norm_squared();
         let left = (computed * factor - measured).norm_squared();
-        for (unknown, parameter) in start.iter_mut().zip(form.parameters()) {
-            if parameter.scale == Scale::Logarithm(Dimension::Stress) {
+        for (unknown, scale) in start.iter_mut().zip(form.scales()) {
+            if scale == Scale::Logarithm(Dimension::Stress) {
                 *unknown += factor.max(1e-3).ln();
             }
         }
@@ -241,8 +241,7 @@ impl Problem for OfForm<'_> {
     }
 
     fn clamp(&self, place: usize, value: f64) -> f64 {
-        let parameters = self.form.parameters();
-        match parameters.get(place).map(|p| p.scale) {
+        match self.form.scales().nth(place) {
             Some(Scale::Odds) => value.clamp(-WIDEST_ODDS, WIDEST_ODDS),
             Some(Scale::Logarithm(_)) => value.clamp(-WIDEST_LOGARITHM, WIDEST_LOGARITHM),
             None => value,

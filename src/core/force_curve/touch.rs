@@ -4,6 +4,7 @@ use super::fit::CurveError;
 use super::record::Points;
 use super::springs::Springs;
 use crate::indenter::Axisymmetric;
+use crate::measured::statistics::mean;
 use crate::quantity::Dimension;
 
 /// Points before contact that tell what the instrument adds.
@@ -36,6 +37,15 @@ impl Nuisance {
             Self::Offset => "force_offset_n",
             Self::Drift => "force_drift_n_per_s",
             Self::Drag => "drag_n_s_per_m",
+        }
+    }
+
+    /// Without a unit that stands with the value.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Offset => "force offset",
+            Self::Drift => "force drift / (N/s)",
+            Self::Drag => "drag",
         }
     }
 
@@ -117,21 +127,23 @@ pub(super) fn touch(profile: &dyn Axisymmetric, points: &Points) -> Result<Touch
 
 /// The first point of a retraction that pulls, as no law without attraction does; `None` where nothing pulls.
 pub(super) fn pulled_from(points: &Points, touch: &Touch) -> Option<usize> {
-    let mean = |forces: &[f64]| forces.iter().sum::<f64>() / forces.len().max(1) as f64;
-    let before_n = mean(&points.force_n[..touch.before]);
+    if touch.before < FEWEST_BEFORE {
+        return None;
+    }
+    let before_n = mean(&points.force_n[..touch.before])?;
     let deepest = (0..points.indentation_m.len())
         .max_by(|a, b| points.indentation_m[*a].total_cmp(&points.indentation_m[*b]))?;
     let largest_n = largest(&points.force_n) - before_n;
     // Drift and drag have moved the baseline of the end, but not by much.
     let back = &points.force_n[deepest..];
-    let after_n = mean(&back[back.len() - back.len().min(FEWEST_BEFORE)..]);
+    let after_n = mean(&back[back.len() - back.len().min(FEWEST_BEFORE)..])?;
     let least_n = back.iter().copied().fold(f64::INFINITY, f64::min);
     let is_pulled =
         before_n.min(after_n) - least_n > PULL * largest_n || before_n - after_n > HELD * largest_n;
     let depth_m = points.indentation_m[deepest] - touch.contact_point_m;
     let is_deep = |d: &f64| *d > touch.contact_point_m + RETRACTED * depth_m;
     let last = points.indentation_m.iter().rposition(is_deep)?;
-    (is_pulled && touch.before >= FEWEST_BEFORE).then_some(last + 1)
+    is_pulled.then_some(last + 1)
 }
 
 /// What the instrument may add that the curve can tell.
@@ -142,7 +154,7 @@ pub(super) fn nuisances(points: &Points, touch: &Touch, has_drag: bool) -> Vec<N
     let mut all = vec![Nuisance::Offset, Nuisance::Drift];
     let speeds = &points.speed_m_per_s;
     let fastest = speeds.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
-    let approach = speeds[..touch.before].iter().sum::<f64>() / touch.before as f64;
+    let approach = mean(&speeds[..touch.before]).unwrap_or(0.0);
     // In contact the law takes what another speed changes.
     let outside = points.indentation_m.iter().zip(speeds);
     let outside = outside.filter(|(d, _)| **d < touch.contact_point_m);

@@ -256,10 +256,18 @@ impl Identified {
                 variances[part] += other.weight * apart * apart;
             }
         }
-        let factor = |variance: f64| (self.half_width * variance.sqrt()).min(WIDEST).exp();
-        ModulusBand {
-            storage_pa: own[0].0.exp(),
-            loss_pa: own[1].0.exp(),
+        let ln_moduli = own.map(|(ln, _)| ln);
+        ModulusBand::of(ln_moduli, variances, self.half_width)
+    }
+}
+
+impl ModulusBand {
+    /// Of the logarithms of storage and loss modulus (Pa) and their variances, this many standard deviations to either side.
+    pub(crate) fn of(ln_moduli: [f64; 2], variances: [f64; 2], half_width: f64) -> Self {
+        let factor = |variance: f64| (half_width * variance.sqrt()).min(WIDEST).exp();
+        Self {
+            storage_pa: ln_moduli[0].exp(),
+            loss_pa: ln_moduli[1].exp(),
             storage_factor: factor(variances[0]),
             loss_factor: factor(variances[1]),
         }

@@ -60,6 +60,9 @@ pub enum Scale {
     Odds,
 }
 
+const STRESS: Scale = Scale::Logarithm(Dimension::Stress);
+const TIME: Scale = Scale::Logarithm(Dimension::Time);
+
 impl Scale {
     /// The parameter of an unknown.
     pub fn value(self, unknown: f64) -> f64 {
@@ -100,45 +103,50 @@ impl Form {
         })
     }
 
+    /// Names and scales of its parameters, but those of the branches of a series.
+    fn own(self) -> &'static [(&'static str, Scale)] {
+        const EQUILIBRIUM: (&str, Scale) = ("equilibrium_modulus_pa", STRESS);
+        const MODULUS_PA: (&str, Scale) = ("modulus_pa", STRESS);
+        const TIME_S: (&str, Scale) = ("time_s", TIME);
+        const EXPONENT: (&str, Scale) = ("exponent", Scale::Odds);
+        // The second exponent is a part of the first.
+        const RATIO: (&str, Scale) = ("exponent_ratio", Scale::Odds);
+        match self.law {
+            Law::PowerLaw => &[MODULUS_PA, EXPONENT],
+            Law::StandardSolid => &[EQUILIBRIUM, MODULUS_PA, TIME_S],
+            Law::FractionalZener | Law::Kww => &[EQUILIBRIUM, MODULUS_PA, TIME_S, EXPONENT],
+            Law::FractionalMaxwell => &[MODULUS_PA, TIME_S, EXPONENT, RATIO],
+            Law::KelvinVoigt => &[EQUILIBRIUM, MODULUS_PA, EXPONENT],
+            Law::Series => &[EQUILIBRIUM],
+        }
+    }
+
+    fn branches_of_series(self) -> usize {
+        match self.law {
+            Law::Series => self.branches,
+            _ => 0,
+        }
+    }
+
     /// In the order of its unknowns: moduli first, but those of a series, of which each has its time behind it.
     pub fn parameters(self) -> Vec<Parameter> {
-        const STRESS: Scale = Scale::Logarithm(Dimension::Stress);
-        const TIME: Scale = Scale::Logarithm(Dimension::Time);
-        let parameter = |(name, scale): (&str, Scale)| Parameter {
-            name: name.to_owned(),
-            scale,
-        };
-        let equilibrium = ("equilibrium_modulus_pa", STRESS);
-        let (modulus, time, exponent) = (
-            ("modulus_pa", STRESS),
-            ("time_s", TIME),
-            ("exponent", Scale::Odds),
-        );
-        let all: &[(&str, Scale)] = match self.law {
-            Law::PowerLaw => &[modulus, exponent],
-            Law::StandardSolid => &[equilibrium, modulus, time],
-            Law::FractionalZener | Law::Kww => &[equilibrium, modulus, time, exponent],
-            // The second is a part of the first.
-            Law::FractionalMaxwell => &[modulus, time, exponent, ("exponent_ratio", Scale::Odds)],
-            Law::KelvinVoigt => &[equilibrium, modulus, exponent],
-            Law::Series => &[equilibrium],
-        };
-        let mut all: Vec<Parameter> = all.iter().copied().map(parameter).collect();
-        if self.law == Law::Series {
-            for k in 1..=self.branches {
-                let (modulus, time) = (format!("modulus_{k}_pa"), format!("time_{k}_s"));
-                all.extend([parameter((&modulus, STRESS)), parameter((&time, TIME))]);
-            }
-        }
-        all
+        let own = self.own().iter().map(|(name, _)| (*name).to_owned());
+        let branches = 1..=self.branches_of_series();
+        let branches = branches.flat_map(|k| [format!("modulus_{k}_pa"), format!("time_{k}_s")]);
+        let all = own.chain(branches).zip(self.scales());
+        all.map(|(name, scale)| Parameter { name, scale }).collect()
+    }
+
+    /// Of the parameters, in their order.
+    pub fn scales(self) -> impl Iterator<Item = Scale> {
+        let own = self.own().iter().map(|(_, scale)| *scale);
+        own.chain((0..self.branches_of_series()).flat_map(|_| [STRESS, TIME]))
     }
 
     /// The parameters of unknowns.
     pub fn values(self, unknowns: &[f64]) -> Vec<f64> {
-        let parameters = self.parameters();
-        let all = parameters.iter().zip(unknowns);
-        all.map(|(parameter, unknown)| parameter.scale.value(*unknown))
-            .collect()
+        let all = self.scales().zip(unknowns);
+        all.map(|(scale, unknown)| scale.value(*unknown)).collect()
     }
 
     fn fractional(self, values: &[f64]) -> Option<Fractional> {
@@ -231,10 +239,9 @@ impl Form {
                     .to_vec()
             }
         };
-        let parameters = self.parameters();
         let unknowns = |values: Vec<f64>| {
-            let all = values.iter().zip(&parameters);
-            all.map(|(value, p)| p.scale.unknown(*value)).collect()
+            let all = values.iter().zip(self.scales());
+            all.map(|(value, scale)| scale.unknown(*value)).collect()
         };
         values.into_iter().map(unknowns).collect()
     }

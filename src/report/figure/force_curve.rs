@@ -5,12 +5,13 @@ use super::plot::Plot;
 use super::quantity::{MODULUS, Quantity, Spread, TIME};
 use super::trace::{Point, Trace};
 use super::units::{Measure, Units};
+use crate::force_curve::CurveFit;
 use crate::numerics::order::median;
 use crate::quantity::{Dimension, format_human};
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, HeatMap, Mark, Marker};
 use crate::report::figure::Figure;
-use crate::report::force_curve::{CurvesReport, Found, bands, middle};
+use crate::report::force_curve::{CurvesReport, Found, tables};
 use crate::report::number::largest;
 
 const FORCE: Quantity = Quantity::new("force_n", "force F", Measure::Of(Dimension::Force));
@@ -29,12 +30,12 @@ const NEAR: f64 = 5e-3;
 pub fn figures(report: &CurvesReport<'_>) -> Vec<Figure> {
     match report.single() {
         Some(found) => vec![
-            over_indentation(&found),
-            over_time(&found),
+            over_indentation(found),
+            over_time(found),
             moduli_of(
-                &bands(found.fit),
+                &found.bands,
                 found.fit.window_rad_per_s,
-                report.moduli(),
+                tables::moduli(report),
             ),
         ],
         None => many(report),
@@ -42,7 +43,7 @@ pub fn figures(report: &CurvesReport<'_>) -> Vec<Figure> {
 }
 
 /// Measured and computed forces over something.
-fn both<'a>(fit: &'a crate::force_curve::CurveFit, over: &'a [f64]) -> [Trace; 2] {
+fn both(fit: &CurveFit, over: &[f64]) -> [Trace; 2] {
     let measured = over.iter().copied().zip(fit.points.force_n.iter().copied());
     let computed = over.iter().copied().zip(fit.computed_n.iter().copied());
     [
@@ -86,10 +87,10 @@ fn over_time(Found { fit, .. }: &Found<'_>) -> Figure {
 /// E' (Pa) of every curve, at the frequency (rad/s) that is in the middle for most, and the factor of its band; `None` of a curve that was
 /// not fitted.
 fn storage_moduli(report: &CurvesReport<'_>) -> (f64, Vec<Option<(f64, f64)>>) {
-    let middles: Vec<f64> = report.found().map(|found| middle(found.fit)).collect();
+    let middles: Vec<f64> = report.found().map(Found::middle).collect();
     let omega = median(&middles);
-    let moduli = report.fits.iter().map(|fit| {
-        let band = fit.as_ref().ok()?.band(omega)?;
+    let moduli = report.curves().iter().map(|(_, found)| {
+        let band = found.as_ref().ok()?.fit.band(omega)?;
         Some((band.storage_pa, band.storage_factor))
     });
     (omega, moduli.collect())
@@ -130,7 +131,7 @@ fn map(
     moduli: &[Option<(f64, f64)>],
     quantity: &Quantity,
 ) -> Option<Chart> {
-    let places = report.plan.curves.iter().map(|curve| curve.place_m);
+    let places = report.curves().iter().map(|(curve, _)| curve.place_m);
     let places: Vec<(f64, f64)> = places.collect::<Option<_>>()?;
     let (x_m, y_m) = (
         lines(places.iter().map(|p| p.0))?,

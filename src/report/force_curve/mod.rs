@@ -1,6 +1,10 @@
 //! What is reported of laws that were found from force curves: lines for people, tables, the summary.
 
-use serde_json::{Map, Value, json};
+pub mod summary;
+pub mod tables;
+
+use rayon::prelude::*;
+use serde_json::Value;
 
 use crate::force_curve::resolved::{CurvesPlan, resolved_text};
 use crate::force_curve::{CurveError, CurveFit, Drawn, Estimate, FittedLaw, ForceCurve};
@@ -9,9 +13,8 @@ use crate::material::law::{Form, Law, Scale};
 use crate::material::{Material, ModulusKind};
 use crate::quantity::{Dimension, format_human};
 use crate::report::dynamic::tables::prony;
-use crate::report::identify::tables::{MODULI, over, with_ends};
+use crate::report::identify::tables::over;
 use crate::report::number::scientific;
-use crate::report::table::{Cell, cells, csv};
 use crate::report::text::{Column, Table, Text};
 use crate::report::words::listed;
 use crate::sweep::plan::resolved::material_text;
@@ -27,54 +30,143 @@ const NEARLY: f64 = 0.05;
 pub struct CurvesReport<'a> {
     pub plan: &'a CurvesPlan,
     /// In the order of the curves.
-    pub fits: &'a [Result<CurveFit, CurveError>],
+    curves: Vec<(&'a ForceCurve, Result<Found<'a>, &'a CurveError>)>,
 }
 
 /// A curve that was fitted.
-#[derive(Clone, Copy)]
 pub struct Found<'a> {
     pub curve: &'a ForceCurve,
     pub fit: &'a CurveFit,
+    /// Moduli with their bands over angular frequencies (rad/s): the window of the curve and a little beyond.
+    pub bands: Vec<(f64, ModulusBand)>,
+}
+
+impl<'a> Found<'a> {
+    fn new(curve: &'a ForceCurve, fit: &'a CurveFit) -> Self {
+        let omegas = over(fit.window_rad_per_s).into_iter();
+        let bands = omegas.filter_map(|omega| Some((omega, fit.band(omega)?)));
+        Self {
+            curve,
+            fit,
+            bands: bands.collect(),
+        }
+    }
+
+    /// The frequency (rad/s) in the middle of what the curve says something about.
+    pub fn middle(&self) -> f64 {
+        (self.fit.window_rad_per_s.0 * self.fit.window_rad_per_s.1).sqrt()
+    }
+
+    /// Laws that explain the curve as well as the best.
+    fn others(&self) -> impl Iterator<Item = &FittedLaw> {
+        let others = self.fit.laws.iter().skip(1);
+        others.filter(|other| other.weight > NEARLY)
+    }
+
+    /// Everything that was found with its interval: parameters of the law, contact point, what the instrument adds.
+    pub fn named(&self) -> Vec<Named> {
+        let law = self.fit.law();
+        let parameters = law.form.parameters().into_iter().zip(&law.parameters);
+        let parameters = parameters.map(|(parameter, estimate)| Named {
+            dimension: match parameter.scale {
+                Scale::Logarithm(dimension) => Some(dimension),
+                Scale::Odds => None,
+            },
+            words: match parameter.scale {
+                Scale::Logarithm(_) => without_unit(&parameter.name),
+                Scale::Odds => parameter.name.replace('_', " "),
+            },
+            name: parameter.name,
+            estimate: *estimate,
+        });
+        let contact_point = Named {
+            name: "contact_point_m".to_owned(),
+            words: "contact point".to_owned(),
+            estimate: self.fit.contact_point_m,
+            dimension: Some(Dimension::Length),
+        };
+        let nuisances = self.fit.nuisances.iter();
+        let nuisances = nuisances.map(|(nuisance, estimate)| Named {
+            name: nuisance.name().to_owned(),
+            words: nuisance.words().to_owned(),
+            estimate: *estimate,
+            dimension: nuisance.dimension(),
+        });
+        parameters.chain([contact_point]).chain(nuisances).collect()
+    }
+}
+
+/// A number that was found.
+pub struct Named {
+    /// With its unit, as tables call it.
+    pub name: String,
+    words: String,
+    estimate: Estimate,
+    dimension: Option<Dimension>,
+}
+
+impl Named {
+    /// Value, and both ends of its interval, with units.
+    pub fn texts(&self) -> [String; 3] {
+        let Estimate { value, low, high } = self.estimate;
+        [value, low, high].map(|value| match self.dimension {
+            Some(dimension) => format_human(value, dimension, 4),
+            None => scientific(value, 4),
+        })
+    }
 }
 
 impl<'a> CurvesReport<'a> {
+    /// Of the fits of the curves of a plan, in their order.
+    pub fn new(plan: &'a CurvesPlan, fits: &'a [Result<CurveFit, CurveError>]) -> Self {
+        let curves = plan.curves.par_iter().zip(fits);
+        let curves = curves.map(|(curve, fit)| {
+            let found = fit.as_ref().map(|fit| Found::new(curve, fit));
+            (curve, found)
+        });
+        Self {
+            plan,
+            curves: curves.collect(),
+        }
+    }
+
+    /// The curves, each as it was fitted or why it was not.
+    pub fn curves(&self) -> &[(&'a ForceCurve, Result<Found<'a>, &'a CurveError>)] {
+        &self.curves
+    }
+
     /// The curves that were fitted.
-    pub fn found(&self) -> impl Iterator<Item = Found<'a>> + use<'a> {
-        let all = self.plan.curves.iter().zip(self.fits);
-        all.filter_map(|(curve, fit)| {
-            Some(Found {
-                curve,
-                fit: fit.as_ref().ok()?,
-            })
-        })
+    pub fn found(&self) -> impl Iterator<Item = &Found<'a>> {
+        self.curves
+            .iter()
+            .filter_map(|(_, found)| found.as_ref().ok())
     }
 
     /// The curve, where there is one alone.
-    pub fn single(&self) -> Option<Found<'a>> {
-        self.found().next().filter(|_| self.fits.len() == 1)
+    pub fn single(&self) -> Option<&Found<'a>> {
+        self.found().next().filter(|_| self.curves.len() == 1)
     }
 
     /// Names of curves that were not fitted, and why.
     pub fn missing(&self) -> Vec<(&'a str, &'a CurveError)> {
-        let all = self.plan.curves.iter().zip(self.fits);
-        all.filter_map(|(curve, fit)| Some((&curve.name[..], fit.as_ref().err()?)))
-            .collect()
+        let all = self.curves.iter();
+        let all = all.filter_map(|(curve, found)| Some((&curve.name[..], *found.as_ref().err()?)));
+        all.collect()
     }
 
     /// Every file of the folder but figures and page; `block` is the `[material]` block, where there is one.
-    pub fn files(&self, block: Option<&str>) -> Vec<(String, Vec<u8>)> {
+    pub fn files(&self, summary: &Value, block: Option<&str>) -> Vec<(String, Vec<u8>)> {
         let top = |name, bytes| (Place::Top(name).to_string(), bytes);
-        let summary = format!("{:#}\n", self.summary());
         let mut files = vec![
             top("resolved.toml", resolved_text(self.plan).into_bytes()),
-            top("curves.csv", self.table()),
-            top("fit.csv", self.fitted_points()),
-            top("summary.json", summary.into()),
-            (MODULI_TABLE.to_string(), self.moduli()),
+            top("curves.csv", tables::curves(self)),
+            top("fit.csv", tables::points(self)),
+            top("summary.json", format!("{summary:#}\n").into()),
+            (MODULI_TABLE.to_string(), tables::moduli(self)),
         ];
         files.extend(block.map(|block| top("material.toml", block.into())));
         if self.found().any(|found| !found.fit.ensemble.is_empty()) {
-            files.push(top("ensemble.csv", self.ensemble()));
+            files.push(top("ensemble.csv", tables::ensemble(self)));
         }
         let series = self.single().and_then(|found| found.fit.series());
         files.extend(series.map(|series| top("prony.csv", prony(&series))));
@@ -105,7 +197,7 @@ impl<'a> CurvesReport<'a> {
     /// The same, one fact a line.
     pub fn lines(&self) -> Vec<String> {
         match self.single() {
-            Some(found) => lines_of(&found),
+            Some(found) => lines_of(found),
             None => self.lines_of_many(),
         }
     }
@@ -128,7 +220,7 @@ impl<'a> CurvesReport<'a> {
             format!(
                 "{} of {} curves were fitted.",
                 self.found().count(),
-                self.fits.len()
+                self.curves.len()
             ),
             format!("Laws: {}.", listed(&laws)),
         ];
@@ -157,233 +249,22 @@ impl<'a> CurvesReport<'a> {
             Column::left("95 % interval", 0),
         ];
         let mut table = Table::new(2, columns);
-        for (name, estimate, dimension) in named(found.fit) {
-            let value = |value: f64| match dimension {
-                Some(dimension) => format_human(value, dimension, 4),
-                None => scientific(value, 4),
-            };
-            let interval = format!("{} to {}", value(estimate.low), value(estimate.high));
-            table.row([in_words(&name, dimension), value(estimate.value), interval]);
+        for named in found.named() {
+            let [value, low, high] = named.texts();
+            table.row([named.words, value, format!("{low} to {high}")]);
         }
         Some(table)
     }
-
-    /// `curves.csv`: a row for every curve.
-    fn table(&self) -> Vec<u8> {
-        let columns = [
-            "curve",
-            "x_m",
-            "y_m",
-            "status",
-            "law",
-            "law_weight",
-            "angular_frequency_rad_per_s",
-            "storage_modulus_pa",
-            "storage_modulus_low_pa",
-            "storage_modulus_high_pa",
-            "loss_modulus_pa",
-            "loss_modulus_low_pa",
-            "loss_modulus_high_pa",
-            "contact_point_m",
-            "contact_point_low_m",
-            "contact_point_high_m",
-            "reduced_chi_squared",
-            "message",
-        ];
-        let rows = self.plan.curves.iter().zip(self.fits).map(|(curve, fit)| {
-            let [x_m, y_m] = match curve.place_m {
-                Some((x_m, y_m)) => [Some(x_m), Some(y_m)],
-                None => [None; 2],
-            };
-            let mut row = vec![Cell::from(curve.name.clone()), x_m.into(), y_m.into()];
-            match fit {
-                Err(error) => {
-                    row.push(Cell::from("failed".to_owned()));
-                    row.extend((0..13).map(|_| Cell::from(None::<f64>)));
-                    row.push(Cell::from(error.to_string()));
-                    row
-                }
-                Ok(fit) => {
-                    let omega = middle(fit);
-                    let band = fit.band(omega);
-                    let values = band.map(|band| with_ends(omega, &band).map(Some));
-                    let contact = fit.contact_point_m;
-                    row.extend([
-                        Cell::from("converged".to_owned()),
-                        Cell::from(fit.law().form.in_words()),
-                        Cell::from(fit.law().weight),
-                    ]);
-                    row.extend(values.unwrap_or([None; 7]).map(Cell::from));
-                    row.extend([
-                        Cell::from(contact.value),
-                        Cell::from(contact.low),
-                        Cell::from(contact.high),
-                        Cell::from(fit.reduced_chi_squared),
-                        Cell::from(String::new()),
-                    ]);
-                    row
-                }
-            }
-        });
-        csv(&columns, rows)
-    }
-
-    /// `fit.csv`: every point as measured and as computed.
-    fn fitted_points(&self) -> Vec<u8> {
-        let columns = [
-            "curve",
-            "time_s",
-            "indentation_m",
-            "force_n",
-            "force_error_n",
-            "computed_n",
-        ];
-        let rows = self.found().flat_map(|Found { curve, fit }| {
-            (0..fit.computed_n.len()).map(|k| {
-                cells![
-                    curve.name.clone(),
-                    fit.points.time_s[k],
-                    fit.points.indentation_m[k],
-                    fit.points.force_n[k],
-                    fit.error_n[k],
-                    fit.computed_n[k],
-                ]
-            })
-        });
-        csv(&columns, rows)
-    }
-
-    /// `ensemble.csv`: the moduli of every sample, at both ends of the window and in the middle.
-    fn ensemble(&self) -> Vec<u8> {
-        let columns = [
-            "curve",
-            "sample",
-            "law",
-            "contact_point_m",
-            "angular_frequency_rad_per_s",
-            "storage_modulus_pa",
-            "loss_modulus_pa",
-        ];
-        let rows = self.found().flat_map(|Found { curve, fit }| {
-            let (low, high) = fit.window_rad_per_s;
-            let samples = fit.ensemble.iter().enumerate();
-            samples.flat_map(move |(number, drawn)| {
-                [low, middle(fit), high].into_iter().map(move |omega| {
-                    let modulus = drawn.complex_modulus_pa(omega);
-                    cells![
-                        curve.name.clone(),
-                        number + 1,
-                        drawn.form.in_words(),
-                        drawn.contact_point_m,
-                        omega,
-                        modulus.map(|modulus| modulus.re),
-                        modulus.map(|modulus| modulus.im),
-                    ]
-                })
-            })
-        });
-        csv(&columns, rows)
-    }
-
-    /// `moduli.csv`: E' and E'' with their 95 % bands, over the curve and a little beyond; of several curves each by its name.
-    pub fn moduli(&self) -> Vec<u8> {
-        let is_single = self.single().is_some();
-        let name = (!is_single).then_some("curve");
-        let columns: Vec<&str> = name.into_iter().chain(MODULI).collect();
-        let rows = self.found().flat_map(|Found { curve, fit }| {
-            bands(fit).into_iter().map(move |(omega, band)| {
-                let name = (!is_single).then(|| Cell::from(curve.name.clone()));
-                let values = with_ends(omega, &band).map(Cell::from);
-                name.into_iter().chain(values).collect::<Vec<Cell>>()
-            })
-        });
-        csv(&columns, rows)
-    }
-
-    /// The summary as an object; what is undefined is null.
-    pub fn summary(&self) -> Value {
-        let mut summary = match self.single() {
-            Some(found) => of_curve(&found),
-            None => {
-                let curves = self.plan.curves.iter().zip(self.fits).map(|(curve, fit)| match fit {
-                    Ok(fit) => Value::Object(of_curve(&Found { curve, fit })),
-                    Err(error) => json!({ "curve": curve.name, "status": "failed", "message": error.to_string() }),
-                });
-                let mut all = Map::new();
-                all.insert("curves".into(), curves.collect());
-                all
-            }
-        };
-        let known = &self.plan.fit.compressibility;
-        for (key, value) in [
-            ("title", json!(self.plan.title)),
-            ("of", json!("force-curves")),
-            ("laws_asked", json!(self.plan.laws)),
-            ("fitted", json!(self.found().count())),
-            ("failed", json!(self.missing().len())),
-            ("poisson_ratio", json!(known.poisson_ratio())),
-            ("bulk_modulus_pa", json!(known.constant_bulk_modulus_pa())),
-            ("program", json!(env!("CARGO_PKG_NAME"))),
-            ("program_version", json!(env!("CARGO_PKG_VERSION"))),
-        ] {
-            summary.insert(key.to_owned(), value);
-        }
-        Value::Object(summary)
-    }
-}
-
-/// The frequency (rad/s) in the middle of what a curve says something about.
-pub fn middle(fit: &CurveFit) -> f64 {
-    (fit.window_rad_per_s.0 * fit.window_rad_per_s.1).sqrt()
-}
-
-/// Moduli with their bands, over the window of a curve and a little beyond.
-pub fn bands(fit: &CurveFit) -> Vec<(f64, ModulusBand)> {
-    let omegas = over(fit.window_rad_per_s).into_iter();
-    omegas
-        .filter_map(|omega| Some((omega, fit.band(omega)?)))
-        .collect()
-}
-
-/// Everything that was found with its interval: parameters of the law, contact point, what the instrument adds.
-pub fn named(fit: &CurveFit) -> Vec<(String, Estimate, Option<Dimension>)> {
-    let law = fit.law();
-    let parameters = law.form.parameters().into_iter().zip(&law.parameters);
-    let mut all: Vec<(String, Estimate, Option<Dimension>)> = parameters
-        .map(|(parameter, estimate)| {
-            let dimension = match parameter.scale {
-                Scale::Logarithm(dimension) => Some(dimension),
-                Scale::Odds => None,
-            };
-            (parameter.name, *estimate, dimension)
-        })
-        .collect();
-    all.push((
-        "contact_point_m".to_owned(),
-        fit.contact_point_m,
-        Some(Dimension::Length),
-    ));
-    let nuisances = fit.nuisances.iter();
-    all.extend(
-        nuisances.map(|(nuisance, estimate)| {
-            (nuisance.name().to_owned(), *estimate, nuisance.dimension())
-        }),
-    );
-    all
 }
 
 /// A name without its unit, which stands with the value.
-fn in_words(name: &str, dimension: Option<Dimension>) -> String {
-    let of_drift = name.strip_suffix("_n_per_s");
-    if let Some(drift) = of_drift {
-        return format!("{} / (N/s)", drift.replace('_', " "));
-    }
-    let unit = name.rfind('_').filter(|_| dimension.is_some());
-    let drag = name.find("_n_s_per_m").or(unit);
-    name[..drag.unwrap_or(name.len())].replace('_', " ")
+fn without_unit(name: &str) -> String {
+    let name = name.rsplit_once('_').map_or(name, |(name, _)| name);
+    name.replace('_', " ")
 }
 
-fn lines_of(Found { curve, fit }: &Found<'_>) -> Vec<String> {
+fn lines_of(found: &Found<'_>) -> Vec<String> {
+    let Found { curve, fit, .. } = found;
     let law = fit.law();
     let mut lines = Vec::new();
     if fit.inflation > 1.0 {
@@ -402,12 +283,8 @@ fn lines_of(Found { curve, fit }: &Found<'_>) -> Vec<String> {
         format_human(fit.points.noise_n, Dimension::Force, 2),
         scientific(fit.reduced_chi_squared, 2)
     ));
-    let others = fit
-        .laws
-        .iter()
-        .skip(1)
-        .filter(|other| other.weight > NEARLY);
-    let others: Vec<String> = others
+    let others: Vec<String> = found
+        .others()
         .map(|other| {
             format!(
                 "{} ({})",
@@ -474,57 +351,5 @@ fn formula(form: Form) -> &'static str {
         }
         Law::Kww => "E(t) = equilibrium + modulus exp(-(t/time)^exponent), Young's modulus.",
         Law::Series => "E(t) = equilibrium + sum of modulus_i exp(-t/time_i), Young's modulus.",
-    }
-}
-
-fn of_curve(Found { curve, fit }: &Found<'_>) -> Map<String, Value> {
-    let estimate = |estimate: &Estimate| json!({ "value": estimate.value, "low": estimate.low, "high": estimate.high });
-    let law = fit.law();
-    let names = law.form.parameters().into_iter().map(|p| p.name);
-    let parameters: Map<String, Value> = names.zip(law.parameters.iter().map(estimate)).collect();
-    let laws = fit.laws.iter().map(|law: &FittedLaw| {
-        json!({
-            "law": law.form.law.name(),
-            "branches": (law.form.law == Law::Series).then_some(law.form.branches),
-            "weight": law.weight,
-            "schwarz": law.schwarz,
-            "chi_squared": law.chi_squared,
-        })
-    });
-    let nuisances: Map<String, Value> = (fit.nuisances.iter())
-        .map(|(nuisance, value)| (nuisance.name().to_owned(), estimate(value)))
-        .collect();
-    let others = fit.laws.iter().skip(1).any(|other| other.weight > NEARLY);
-    let moduli = bands(fit).into_iter().map(|(omega, band)| {
-        let values = with_ends(omega, &band).map(Value::from);
-        let names = MODULI.map(str::to_owned);
-        names
-            .into_iter()
-            .zip(values)
-            .collect::<Map<String, Value>>()
-    });
-    let value = json!({
-        "curve": curve.name,
-        "status": "converged",
-        "law": law.form.law.name(),
-        "laws": laws.collect::<Vec<_>>(),
-        "law_is_told_from_others": !others,
-        "parameters": parameters,
-        "contact_point_m": estimate(&fit.contact_point_m),
-        "instrument": nuisances,
-        "samples": curve.time_s.len(),
-        "ensemble": fit.ensemble.len(),
-        "points": fit.points.time_s.len(),
-        "noise_n": fit.points.noise_n,
-        "degrees_of_freedom": fit.degrees_of_freedom,
-        "reduced_chi_squared": fit.reduced_chi_squared,
-        "intervals_widened_by": fit.inflation,
-        "retraction_left_out": fit.is_pulled,
-        "window_rad_per_s": fit.window_rad_per_s,
-        "moduli": moduli.collect::<Vec<_>>(),
-    });
-    match value {
-        Value::Object(object) => object,
-        _ => Map::new(),
     }
 }

@@ -3,6 +3,8 @@
 pub mod summary;
 pub mod tables;
 
+use serde_json::Value;
+
 use crate::identify::data::Number;
 use crate::identify::resolved::resolved_text;
 use crate::identify::{
@@ -32,15 +34,14 @@ pub struct IdentifyReport<'a> {
 
 impl IdentifyReport<'_> {
     /// Every file of the folder but figures and page: name and bytes; `block` is the `[material]` block.
-    pub fn files(&self, block: &str) -> Vec<(String, Vec<u8>)> {
-        let summary = format!("{:#}\n", summary::summary(self));
+    pub fn files(&self, summary: &Value, block: &str) -> Vec<(String, Vec<u8>)> {
         let top = |name, bytes| (Place::Top(name).to_string(), bytes);
         vec![
             top("material.toml", block.into()),
             top("resolved.toml", resolved_text(self.plan).into()),
             top("prony.csv", prony(&self.found.relaxation)),
             top("fit.csv", tables::fit(self)),
-            top("summary.json", summary.into()),
+            top("summary.json", format!("{summary:#}\n").into()),
             (MODULI.to_string(), tables::moduli(self)),
         ]
     }

@@ -5,10 +5,10 @@ use maud::html;
 use super::frame::Input;
 use super::question::list;
 use super::{Pictures, plain, scroll};
-use crate::quantity::format_human;
+use crate::force_curve::resolved::resolved_text;
 use crate::report::ReportError;
 use crate::report::figure::Figure;
-use crate::report::force_curve::{CurvesReport, named};
+use crate::report::force_curve::CurvesReport;
 use crate::report::number::scientific;
 use crate::sweep::plan::resolved::hash;
 
@@ -23,21 +23,11 @@ pub fn page(
     pictures: &Pictures,
 ) -> Result<String, ReportError> {
     let parameters = report.single().map(|found| {
-        let rows = named(found.fit)
-            .into_iter()
-            .map(|(name, estimate, dimension)| {
-                let value = |value: f64| match dimension {
-                    Some(dimension) => format_human(value, dimension, 4),
-                    None => scientific(value, 4),
-                };
-                vec![
-                    name,
-                    value(estimate.value),
-                    value(estimate.low),
-                    value(estimate.high),
-                ]
-            });
-        plain::table(&["", "value", "95 % from", "to"], rows)
+        let rows = found.named().into_iter().map(|named| {
+            let texts = named.texts();
+            [named.name].into_iter().chain(texts).collect()
+        });
+        plain::table::<String>(&["", "value", "95 % from", "to"], rows)
     });
     let laws = report.single().map(|found| {
         let rows = found.fit.laws.iter().map(|law| {
@@ -66,7 +56,7 @@ pub fn page(
         &report.plan.title[..],
         "which law has this force curve".to_owned(),
     );
-    let resolved = crate::force_curve::resolved::resolved_text(report.plan);
+    let resolved = resolved_text(report.plan);
     let input = match block {
         Some(block) => plain::found_material(block),
         None => Input::of_file(

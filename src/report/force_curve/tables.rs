@@ -1,0 +1,124 @@
+//! The tables of force curves: a row for every curve, the points of the fits, the moduli with their bands, the ensemble.
+
+use super::{CurvesReport, Found};
+use crate::report::identify::tables::{MODULI, with_ends};
+use crate::report::table::{Cell, cells, csv};
+
+/// `curves.csv`: a row for every curve.
+pub fn curves(report: &CurvesReport<'_>) -> Vec<u8> {
+    let before = ["curve", "x_m", "y_m", "status", "law", "law_weight"];
+    let behind = [
+        "contact_point_m",
+        "contact_point_low_m",
+        "contact_point_high_m",
+        "reduced_chi_squared",
+        "message",
+    ];
+    let columns = [&before[..], &MODULI, &behind].concat();
+    let rows = report.curves().iter().map(|(curve, found)| {
+        let (x_m, y_m) = curve.place_m.unzip();
+        let mut row = cells![curve.name.clone(), x_m, y_m].to_vec();
+        match found {
+            Err(error) => {
+                row.push("failed".to_owned().into());
+                row.resize(columns.len() - 1, Cell::Absent);
+                row.push(error.to_string().into());
+            }
+            Ok(found) => {
+                let (fit, omega) = (found.fit, found.middle());
+                let values = fit
+                    .band(omega)
+                    .map(|band| with_ends(omega, &band).map(Some));
+                let contact = fit.contact_point_m;
+                row.extend(cells![
+                    "converged",
+                    fit.law().form.in_words(),
+                    fit.law().weight
+                ]);
+                row.extend(values.unwrap_or([None; 7]).map(Cell::from));
+                row.extend(cells![
+                    contact.value,
+                    contact.low,
+                    contact.high,
+                    fit.reduced_chi_squared,
+                    String::new()
+                ]);
+            }
+        }
+        row
+    });
+    csv(&columns, rows)
+}
+
+/// `fit.csv`: every point as measured and as computed.
+pub fn points(report: &CurvesReport<'_>) -> Vec<u8> {
+    let columns = [
+        "curve",
+        "time_s",
+        "indentation_m",
+        "force_n",
+        "force_error_n",
+        "computed_n",
+    ];
+    let rows = report.found().flat_map(|Found { curve, fit, .. }| {
+        (0..fit.computed_n.len()).map(|k| {
+            cells![
+                curve.name.clone(),
+                fit.points.time_s[k],
+                fit.points.indentation_m[k],
+                fit.points.force_n[k],
+                fit.error_n[k],
+                fit.computed_n[k],
+            ]
+        })
+    });
+    csv(&columns, rows)
+}
+
+/// `ensemble.csv`: the moduli of every sample, at both ends of the window and in the middle.
+pub fn ensemble(report: &CurvesReport<'_>) -> Vec<u8> {
+    let columns = [
+        "curve",
+        "sample",
+        "law",
+        "contact_point_m",
+        "angular_frequency_rad_per_s",
+        "storage_modulus_pa",
+        "loss_modulus_pa",
+    ];
+    let rows = report.found().flat_map(|found| {
+        let Found { curve, fit, .. } = found;
+        let (low, high) = fit.window_rad_per_s;
+        let samples = fit.ensemble.iter().enumerate();
+        samples.flat_map(move |(number, drawn)| {
+            [low, found.middle(), high].into_iter().map(move |omega| {
+                let modulus = drawn.complex_modulus_pa(omega);
+                cells![
+                    curve.name.clone(),
+                    number + 1,
+                    drawn.form.in_words(),
+                    drawn.contact_point_m,
+                    omega,
+                    modulus.map(|modulus| modulus.re),
+                    modulus.map(|modulus| modulus.im),
+                ]
+            })
+        })
+    });
+    csv(&columns, rows)
+}
+
+/// `moduli.csv`: E' and E'' with their 95 % bands, over the curve and a little beyond; of several curves each by its name.
+pub fn moduli(report: &CurvesReport<'_>) -> Vec<u8> {
+    let is_single = report.single().is_some();
+    let name = (!is_single).then_some("curve");
+    let columns: Vec<&str> = name.into_iter().chain(MODULI).collect();
+    let rows = report.found().flat_map(|Found { curve, bands, .. }| {
+        bands.iter().map(move |(omega, band)| {
+            let name = (!is_single).then(|| Cell::from(curve.name.clone()));
+            let values = with_ends(*omega, band).map(Cell::from);
+            name.into_iter().chain(values).collect::<Vec<Cell>>()
+        })
+    });
+    csv(&columns, rows)
+}
