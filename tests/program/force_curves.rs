@@ -79,6 +79,42 @@ fn measured(place: &Place, folder: &str) -> Vec<[f64; 3]> {
         .collect()
 }
 
+/// The columns of [`measured`].
+const CURVE: &str = "time_s,force_n,indentation_m";
+
+/// Rows under a header, each made of one that was measured.
+fn table(header: &str, rows: &[[f64; 3]], row: impl Fn(&[f64; 3]) -> [f64; 3]) -> String {
+    let rows = rows.iter().map(row);
+    let rows = rows.map(|[a, b, c]| format!("{a},{b:e},{c:e}\n"));
+    format!("{header}\n{}", rows.collect::<String>())
+}
+
+/// What an identification finds is the gel, and first contact at 3 um.
+fn found_is_the_gel(place: &Place, curve: &str) {
+    place.done(&format!("identify {curve}.toml --quiet --out {curve}"));
+    let found = place.json(&format!("{curve}/summary.json"));
+    assert_eq!(found["law"], "power-law");
+    assert_eq!(found["laws"][0]["law"], "power-law");
+    for (name, exact) in [("modulus_pa", 1e3), ("exponent", 0.2)] {
+        let (value, is_inside) = of(&found["parameters"][name], exact);
+        assert!(
+            is_inside && (value / exact - 1.0).abs() < 0.03,
+            "{curve} {name} {value}"
+        );
+    }
+    let (contact_m, is_inside) = of(&found["contact_point_m"], 3e-6);
+    assert!(
+        is_inside && (contact_m - 3e-6).abs() < 5e-9,
+        "{curve} {contact_m:e}"
+    );
+    let moduli = place.table(&format!("{curve}/figures/moduli.csv"));
+    let middle = moduli.len() / 2;
+    let omega = moduli.number(middle, "angular_frequency_rad_per_s");
+    let exact = 1e3 * omega.powf(0.2) * (0.1 * std::f64::consts::PI).cos();
+    assert!(moduli.number(middle, "storage_modulus_low_pa") < exact);
+    assert!(moduli.number(middle, "storage_modulus_high_pa") > exact);
+}
+
 #[test]
 fn a_law_is_found_from_a_history_and_from_a_piezo_and_a_cantilever() {
     let place = Place::new();
@@ -92,18 +128,15 @@ fn a_law_is_found_from_a_history_and_from_a_piezo_and_a_cantilever() {
     let (modulus_pa, _) = of(&found["parameters"]["modulus_pa"], 1e3);
     assert!((modulus_pa / 1e3 - 1.0).abs() < 0.01, "{modulus_pa}");
     let rows = measured(&place, "gel");
-    let table = |header: &str, row: &dyn Fn(&[f64; 3]) -> [f64; 3]| {
-        let rows = rows.iter().map(row);
-        let rows = rows.map(|[a, b, c]| format!("{a},{b:e},{c:e}\n"));
-        format!("{header}\n{}", rows.collect::<String>())
-    };
-    place.put("a.csv", table("time_s,force_n,indentation_m", &|row| *row));
+    place.put("a.csv", table(CURVE, &rows, |row| *row));
     // A cantilever of 0.1 N/m bends by the force over it, and the piezo moves by both.
     place.put(
         "b.csv",
-        table("time_s,piezo_um,deflection_nm", &|[t, force_n, depth_m]| {
-            [*t, 1e6 * (depth_m + force_n / 0.1), 1e9 * force_n / 0.1]
-        }),
+        table(
+            "time_s,piezo_um,deflection_nm",
+            &rows,
+            |[t, force_n, depth_m]| [*t, 1e6 * (depth_m + force_n / 0.1), 1e9 * force_n / 0.1],
+        ),
     );
     place.put("a.toml", IDENTIFY.replace("CURVE", "a.csv"));
     let with_spring = "[instrument]\nspring_constant = \"0.1 N/m\"\n[material]";
@@ -114,28 +147,7 @@ fn a_law_is_found_from_a_history_and_from_a_piezo_and_a_cantilever() {
             .replace("[material]", with_spring),
     );
     for curve in ["a", "b"] {
-        place.done(&format!("identify {curve}.toml --quiet --out {curve}"));
-        let found = place.json(&format!("{curve}/summary.json"));
-        assert_eq!(found["law"], "power-law");
-        assert_eq!(found["laws"][0]["law"], "power-law");
-        for (name, exact) in [("modulus_pa", 1e3), ("exponent", 0.2)] {
-            let (value, is_inside) = of(&found["parameters"][name], exact);
-            assert!(
-                is_inside && (value / exact - 1.0).abs() < 0.03,
-                "{curve} {name} {value}"
-            );
-        }
-        let (contact_m, is_inside) = of(&found["contact_point_m"], 3e-6);
-        assert!(
-            is_inside && (contact_m - 3e-6).abs() < 5e-9,
-            "{curve} {contact_m:e}"
-        );
-        let moduli = place.table(&format!("{curve}/figures/moduli.csv"));
-        let middle = moduli.len() / 2;
-        let omega = moduli.number(middle, "angular_frequency_rad_per_s");
-        let exact = 1e3 * omega.powf(0.2) * (0.1 * std::f64::consts::PI).cos();
-        assert!(moduli.number(middle, "storage_modulus_low_pa") < exact);
-        assert!(moduli.number(middle, "storage_modulus_high_pa") > exact);
+        found_is_the_gel(&place, curve);
     }
     // The same again from what was written of it.
     place.put("again.toml", place.text("a/resolved.toml"));
@@ -204,11 +216,7 @@ fn fits_with_the_noise_drawn_anew_are_replicas_from_which_a_sweep_has_a_band() {
     place.put("solid.toml", GEL.replace(&GEL[known], solid));
     place.done("simulate solid.toml --quiet --out solid");
     let rows = measured(&place, "solid");
-    let rows = rows
-        .iter()
-        .map(|[t, force_n, depth_m]| format!("{t},{force_n:e},{depth_m:e}\n"));
-    let header = "time_s,force_n,indentation_m\n".to_owned();
-    place.put("curve.csv", header + &rows.collect::<String>());
+    place.put("curve.csv", table(CURVE, &rows, |row| *row));
     let asked = "law = \"standard-solid\"\nsamples = 16\n[material]";
     let identify = IDENTIFY
         .replace("CURVE", "curve.csv")
