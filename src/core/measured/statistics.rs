@@ -24,22 +24,33 @@ impl StandardError {
     pub fn half_width(self) -> f64 {
         student(self.freedom) * self.value
     }
+
+    /// Whether it is larger than one that is known well by more than 1 in 20 by chance: chi squared over its degrees of freedom by the
+    /// cube root of E. B. Wilson and M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684.
+    fn is_beyond(self, known: Self) -> bool {
+        const NORMAL_OF_ONE_SIDE: f64 = 1.644_853_626_951_472;
+        let part = 2.0 / (9.0 * self.freedom);
+        let limit = (1.0 - part + NORMAL_OF_ONE_SIDE * part.sqrt()).powi(3);
+        self.value > known.value * limit.sqrt()
+    }
 }
 
 impl Estimate {
-    /// The mean of cycles. Its uncertainty is the larger one of two: from how the cycles scatter, and from the noise of the samples;
-    /// few cycles scatter little by chance, and a noise that is not white scatters more than its samples say. The standard error is
-    /// the larger one by itself, not that of the wider interval: two cycles have a wide interval for want of degrees of freedom, and
-    /// a standard deviation that may be small by chance.
+    /// The mean of cycles. Its uncertainty is told twice: by how the cycles scatter, and by the noise of the samples. Few cycles scatter
+    /// little by chance, and a noise that is not white scatters more than its samples say. The interval is the wider one. The standard
+    /// error, which weighs a datum in a fit, is that of the noise unless the cycles scatter by more than chance lets them: the larger one of
+    /// both would be too large on average, and chi squared of a fit too small.
     pub fn of(values: &[f64], from_noise: Option<StandardError>) -> Option<Self> {
         let value = mean(values)?;
         let scatter = scatter(values);
-        let of_both = || scatter.into_iter().chain(from_noise);
-        let larger = of_both().max_by(|a, b| a.value.total_cmp(&b.value));
-        let half_widths = of_both().map(StandardError::half_width);
+        let standard_error = match (scatter, from_noise) {
+            (Some(scatter), Some(noise)) if !scatter.is_beyond(noise) => Some(noise.value),
+            (scatter, noise) => scatter.or(noise).map(|error| error.value),
+        };
+        let half_widths = (scatter.into_iter().chain(from_noise)).map(StandardError::half_width);
         Some(Self {
             value,
-            standard_error: larger.map(|error| error.value),
+            standard_error,
             error: half_widths.max_by(f64::total_cmp),
         })
     }
