@@ -10,14 +10,18 @@ use super::failure::{Ended, Failure};
 use super::flags::{OutFlags, named};
 use super::folders::{in_folder, write_result};
 use super::output::{OutputFormat, tell};
+use crate::identify::material_laws::of_table;
+use crate::identify::resolved::{LAWS, forms};
 use crate::input::dynamic::DynamicFormat;
 use crate::input::table_file;
 use crate::material::dynamic::{MOST_BRANCHES, MOST_REPLICAS};
 use crate::material::fit;
+use crate::material::law::Form;
 use crate::material::{Material, MaterialFunction, ModulusKind};
 use crate::quantity::{Dimension, parse};
 use crate::report::caption::Setting;
 use crate::report::dynamic::tables;
+use crate::report::laws;
 use crate::report::material::{fit_json, to_json};
 use crate::report::page::{self, material::About};
 use crate::report::text::Text;
@@ -45,6 +49,10 @@ pub(super) struct FitFlags {
     /// Whether the material flows without end; without this flag the data decide
     #[arg(long, value_name = "true|false")]
     pub(super) flow: Option<bool>,
+    /// Laws of a few parameters beside the series: auto for all, a name, or several with commas; the block is then that of the law that the
+    /// data choose
+    #[arg(long, value_name = "auto|LAW,...", value_delimiter = ',', value_parser = law())]
+    pub(super) law: Vec<&'static str>,
     #[command(flatten)]
     pub(super) dynamic: DynamicFlags,
     #[command(flatten)]
@@ -136,6 +144,18 @@ pub(super) enum FitQuantity {
     Dynamic,
 }
 
+fn law() -> impl TypedValueParser<Value = &'static str> {
+    named(LAWS.iter().map(|law| (*law, *law, "")))
+}
+
+impl FitFlags {
+    /// The laws that are asked for.
+    pub(super) fn forms(&self) -> Option<Vec<Form>> {
+        let names: Vec<String> = self.law.iter().map(|law| (*law).to_owned()).collect();
+        (!names.is_empty()).then(|| forms(&names, None, 2))
+    }
+}
+
 fn modulus() -> impl TypedValueParser<Value = ModulusKind> {
     named([ModulusKind::Longitudinal, ModulusKind::Shear].map(|kind| {
         let help = match kind {
@@ -165,9 +185,23 @@ pub(super) fn run(
     let target = flags.to.target(Kind::MaterialFit, &flags.data)?;
     let table = table_file::read(data, function, flags.modulus)?;
     let fit = fit::fit(&table, flags.flow).map_err(Failure::input)?;
-    let material = fit.material(poisson_ratio).map_err(Failure::input)?;
-    let block = block(data, &material);
-    let about_fit = report::fit::text(fit.report());
+    let laws = match flags.forms() {
+        Some(forms) => Some(of_table(&table, &fit, &forms).ok_or_else(no_law)?),
+        None => None,
+    };
+    let mut material = fit.material(poisson_ratio).map_err(Failure::input)?;
+    let mut about_fit = report::fit::text(fit.report());
+    if let Some(laws) = &laws {
+        about_fit.append(laws::text(laws, flags.modulus));
+        if let Some(series) = laws::series_in_place(laws) {
+            let (kind, mut origin) = (flags.modulus, material.origin);
+            (origin.fit, origin.alternatives) = (None, Vec::new());
+            material =
+                Material::from_relaxation(series, kind, poisson_ratio).map_err(Failure::input)?;
+            material.origin = origin;
+        }
+    }
+    let block = block(data, &about_fit, &material);
     if let Some(target) = &target {
         let prony = material.relaxation().map(tables::prony);
         let files = [
@@ -196,12 +230,24 @@ pub(super) fn run(
     let found = || {
         let mut value = to_json(&material).map_err(Failure::input)?;
         value["fit"] = fit_json(fit.report());
+        if let (Some(laws), Some(object)) = (&laws, value.as_object_mut()) {
+            object.extend(laws::summary(laws));
+        }
         Ok(value)
     };
-    let text = [about_fit.clone(), report::fit::branches(&fit)];
+    let parameters = match &laws {
+        Some(laws) => laws::table(&laws::named(laws.best())).into(),
+        None => report::fit::branches(&fit),
+    };
+    let text = [about_fit.clone(), parameters];
     tell(format, false, found, || {
         Ok(fit_text(text, &block, target.as_ref()))
     })
+}
+
+/// Why there is no law.
+pub(super) fn no_law() -> Failure {
+    Failure::run("none of the laws could be fitted")
 }
 
 /// What is printed of a fit, and where its files are; where there are none, the block to paste.
@@ -228,8 +274,7 @@ pub(super) fn fit_text(
 }
 
 /// The material block of a sweep file, ready to paste, every number exact.
-fn block(data: &Path, material: &Material) -> String {
-    let fit = report::fit::origin(material);
+fn block(data: &Path, fit: &Text, material: &Material) -> String {
     format!(
         "# From {}\n{}{}",
         data.display().to_string().escape_debug(),

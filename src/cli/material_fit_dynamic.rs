@@ -4,14 +4,15 @@ use std::path::{Path, PathBuf};
 
 use super::failure::{Ended, Failure};
 use super::folders::write_result;
-use super::material_fit::{Branches, FitFlags, fit_text};
+use super::material_fit::{Branches, FitFlags, fit_text, no_law};
 use super::output::{OutputFormat, tell};
+use crate::identify::material_laws::of_moduli;
 use crate::input::dynamic;
 use crate::material::dynamic::master_curve::ShiftChoice;
 use crate::material::dynamic::{Choices, characterise};
 use crate::report::caption::Setting;
 use crate::report::dynamic::{DynamicReport, Source, summary};
-use crate::report::{figure, page};
+use crate::report::{figure, laws, page};
 use crate::sweep::store::manifest::Kind;
 
 /// Runs the command.
@@ -33,11 +34,17 @@ pub(super) fn run(flags: &FitFlags, format: OutputFormat) -> Result<Ended, Failu
         name.display().to_string()
     });
     let source = Source::of(names.collect(), asked.is_some(), &file);
-    let report = DynamicReport {
+    let mut report = DynamicReport {
         source: &source,
         data: &file.data,
         made: &made,
+        laws: None,
     };
+    let laws = match flags.forms() {
+        Some(forms) => Some(of_moduli(&report.points(), &made.fit, &forms).ok_or_else(no_law)?),
+        None => None,
+    };
+    report.laws = laws.as_ref();
     let block = report.block(flags.poisson_ratio).map_err(Failure::input)?;
     let shifting = report
         .shifting_block(flags.poisson_ratio)
@@ -54,7 +61,11 @@ pub(super) fn run(flags: &FitFlags, format: OutputFormat) -> Result<Ended, Failu
         )?;
     }
     let found = || Ok(summary::printed(&report, &block, shifting));
-    let text = [report.text(), report.shift_table(), report.branches()];
+    let parameters = match &laws {
+        Some(laws) => laws::table(&laws::named(laws.best())).into(),
+        None => report.branches(),
+    };
+    let text = [report.text(), report.shift_table(), parameters];
     tell(format, false, found, || {
         Ok(fit_text(text, &block, target.as_ref()))
     })

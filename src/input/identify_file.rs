@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::bodies_block::Bodies;
 use super::data_file;
-use super::diagnostic::Diagnostics;
+use super::diagnostic::{Diagnostics, Location, Problems};
 use super::document::reader::TableReader;
 use super::document::{Document, Located, block};
 use super::given::Given;
@@ -17,14 +17,17 @@ use super::{
     segments_block, solver_block,
 };
 use crate::drive::segments::SEGMENTS;
-use crate::force_curve::resolved::{CURVE, CurvesPlan, LAW, Probe, SAMPLES, forms};
+use crate::force_curve::resolved::{CURVE, CurvesPlan, MOST_CHOSEN, Probe, SAMPLES};
 use crate::force_curve::{self, CurvePlan};
 use crate::identify::data::{Measurements, TableColumns};
 use crate::identify::resolved::{
-    APPROACH_ZERO, ATTRACTION, DATA, IDENTIFY_BRANCHES, resolved_text,
+    APPROACH_ZERO, ATTRACTION, DATA, IDENTIFY_BRANCHES, LAW, forms, resolved_text,
 };
-use crate::identify::{ApproachZero, Driven, IdentifyPlan, Sought, SoughtAttraction};
+use crate::identify::{
+    ApproachZero, Driven, IdentifyPlan, MOST_BRANCHES, Sought, SoughtAttraction,
+};
 use crate::indenter::Indenter;
+use crate::material::law::Form;
 use crate::material::{Compressibility, Relaxation};
 use crate::sweep::plan::adhesion::AdhesionModel;
 use crate::sweep::plan::contact::ContactPlan;
@@ -115,7 +118,7 @@ fn curves_plan(
             indenter: indenter?,
             compressibility: compressibility?,
             indenter_material: bodies?.indenter_material,
-            forms: forms(&laws, branches),
+            forms: forms(&laws, branches, MOST_CHOSEN),
             drag_n_s_per_m: probe.drag_n_s_per_m,
             samples: samples?,
         },
@@ -196,6 +199,7 @@ fn driven_plan(
         solver: solver?,
         drive: drive?,
         branches: measured.branches,
+        laws: measured.laws,
         measurements: measured.measurements,
         data: measured.file,
         approach_zero: measured.approach_zero,
@@ -256,6 +260,38 @@ struct Measured {
     approach_zero: Option<ApproachZero>,
     attraction: SoughtAttraction,
     branches: Option<usize>,
+    laws: Option<Vec<Form>>,
+}
+
+/// The laws of these names that a drive can tell; `None` where a problem was reported.
+fn laws_of(
+    names: &[String],
+    branches: Option<usize>,
+    drive: Option<&Driven>,
+    is_attraction_sought: bool,
+    (problems, place): (&Problems, &Location),
+) -> Option<Vec<Form>> {
+    if is_attraction_sought {
+        let report = problems.at(
+            place,
+            "laws are not told apart while the attraction is sought",
+        );
+        report.help("leave this key out, or write `attraction = \"known\"`");
+        return None;
+    }
+    let all = forms(names, branches, MOST_BRANCHES).into_iter();
+    // Without an equilibrium modulus the mean load creeps or relaxes without end: no cycle settles.
+    let is_history = matches!(drive, Some(Driven::History(_)));
+    let all = all.filter(|form| is_history || form.is_solid());
+    let all: Vec<Form> = all.collect();
+    if all.is_empty() {
+        let report = problems.at(place, "this law has no equilibrium modulus");
+        report
+            .because("under a mean load it creeps without end, and no cycle settles")
+            .help("write `kelvin-voigt`, `fractional-zener` or `auto`; a history or a force curve tells such a law");
+        return None;
+    }
+    Some(all)
 }
 
 /// The `[identify]` block: measurements, and how many branches.
@@ -271,8 +307,23 @@ fn measured_block(
     let place_of_zero = table.key_location(&APPROACH_ZERO);
     let attraction = table.value(&ATTRACTION);
     let place_of_attraction = table.key_location(&ATTRACTION);
+    let place_of_laws = table.key_location(&LAW);
+    let laws: Option<Option<Vec<String>>> = table.value(&LAW);
     table.finish();
-    let (approach_zero, attraction) = (approach_zero?, attraction?);
+    let (approach_zero, attraction, branches) = (approach_zero?, attraction?, branches?);
+    let laws = match (laws?, place_of_laws) {
+        (Some(names), Some(place)) => {
+            let is_sought = attraction != SoughtAttraction::Known;
+            Some(laws_of(
+                &names,
+                branches,
+                drive,
+                is_sought,
+                (problems, &place),
+            )?)
+        }
+        _ => None,
+    };
     if let (Some(place), false) = (place_of_attraction, is_attracted)
         && attraction != SoughtAttraction::Known
     {
@@ -318,6 +369,7 @@ fn measured_block(
         columns,
         approach_zero,
         attraction,
-        branches: branches?,
+        branches,
+        laws,
     })
 }

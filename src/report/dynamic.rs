@@ -10,10 +10,12 @@ pub(super) use text::{arrhenius, wlf};
 use std::borrow::Cow;
 
 use super::number::scientific;
+use crate::identify::laws::Laws;
 use crate::input::dynamic::DynamicFile;
 use crate::material::dynamic::{Characterisation, DynamicData, DynamicError, DynamicPoint};
-use crate::material::{MaterialFunction, Relaxation};
+use crate::material::{Material, MaterialFunction, Relaxation};
 use crate::quantity::FrequencyUnit;
+use crate::report::laws::series_in_place;
 use crate::sweep::plan::resolved;
 
 /// Where dynamic data come from.
@@ -54,6 +56,8 @@ pub struct DynamicReport<'a> {
     pub source: &'a Source,
     pub data: &'a DynamicData,
     pub made: &'a Characterisation,
+    /// Laws beside the series, where they were asked for.
+    pub laws: Option<&'a Laws>,
 }
 
 /// Inconsistent by more than this many times the noise, storage and loss modulus are warned of.
@@ -170,7 +174,14 @@ impl DynamicReport<'_> {
         // Without a Poisson ratio there is none in the text either: the series does not depend on it.
         let nu = poisson_ratio.unwrap_or(0.0);
         let mut material = self.made.material(None, nu)?;
-        material.origin.replicas = self.made.replica_materials(None, nu)?;
+        match self.laws.and_then(series_in_place) {
+            Some(series) => {
+                let origin = material.origin;
+                material = Material::from_relaxation(series, self.made.kind, nu)?;
+                material.origin = origin;
+            }
+            None => material.origin.replicas = self.made.replica_materials(None, nu)?,
+        }
         let block = match poisson_ratio {
             Some(_) => resolved::material_text(&material),
             None => resolved::material_text_without_poisson_ratio(&material),
@@ -314,6 +325,7 @@ pub(crate) mod tests {
                 source: &source,
                 data: &data,
                 made,
+                laws: None,
             };
             report.warnings()
         };

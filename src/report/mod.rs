@@ -3,7 +3,7 @@
 //! The feature `tables` has columns and tables alone, the feature `report` figures and pages too.
 //!
 //! Its parts from top to bottom, each of which may use those above it: numbers, words, text that is laid out for a terminal; peaks; lines over the surface;
-//! tables, and the quantities that are their columns, by which they are read back too; tables of sweeps and scenarios; captions; comparison; chart; figure; material; page; figures that are kept; what an identification leaves; summary and results for
+//! tables, and the quantities that are their columns, by which they are read back too; laws in words; tables of sweeps and scenarios; captions; comparison; chart; figure; material; page; figures that are kept; what an identification leaves; summary and results for
 //! programs; terminal; what a computation would cost; scenario. A test holds them to that.
 //!
 //! ```
@@ -48,6 +48,7 @@ pub mod identified;
 pub mod identify;
 #[cfg(feature = "report")]
 pub mod kept_figures;
+pub mod laws;
 pub mod machine;
 #[cfg(feature = "report")]
 pub mod material;

@@ -3,7 +3,8 @@
 //!
 //! `CURVES=100 SEED=9 cargo test --release --test physics force_curves -- --nocapture` tries as many as the guide on validation quotes.
 
-use contact_dma::force_curve::{CurveFit, CurvePlan, Estimate, ForceCurve, fit};
+use contact_dma::force_curve::{CurveFit, CurvePlan, ForceCurve, fit};
+use contact_dma::identify::laws::Estimate;
 use contact_dma::material::fractional::Fractional;
 use contact_dma::material::law::{Form, Law};
 
@@ -170,7 +171,7 @@ fn inside(found: &CurveFit, truth: &Truth, contact_point_m: f64) -> (usize, usiz
     let mut counts = (0, 0);
     for share in [0.0, 0.25, 0.5, 0.75, 1.0] {
         let omega = low * (high / low).powf(share);
-        let (band, exact) = (found.band(omega).unwrap(), truth(omega));
+        let (band, exact) = (found.laws.band(omega).unwrap(), truth(omega));
         for (value, factor, exact) in [
             (band.storage_pa, band.storage_factor, exact.re),
             (band.loss_pa, band.loss_factor, exact.im),
@@ -237,7 +238,7 @@ fn the_moduli_and_contact_points_of_gels_lie_in_their_bands_and_their_law_is_a_p
     let found = judge("gels", gel);
     let power = found
         .iter()
-        .filter(|found| found.law().form.law == Law::PowerLaw)
+        .filter(|found| found.laws.best().form.law == Law::PowerLaw)
         .count();
     println!("{power} of {} are power laws", found.len());
     assert!(power as f64 >= 0.95 * found.len() as f64 - 1.0);
@@ -280,7 +281,7 @@ fn a_curve_without_noise_gives_the_solid_back() {
         samples: 0,
     };
     let found = fit(&plan, &made.curve, &AtomicBool::new(false)).unwrap();
-    let law = found.law();
+    let law = found.laws.best();
     assert_eq!(law.form.law, Law::StandardSolid);
     for (parameter, exact) in law.parameters.iter().zip([1e3, 4e3, 0.4]) {
         assert!(

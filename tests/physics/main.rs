@@ -24,6 +24,7 @@ mod identification;
 mod identified;
 mod identified_bodies;
 mod identified_histories;
+mod identified_laws;
 mod instant_tolerance;
 mod intermittent;
 mod layer;

@@ -37,7 +37,7 @@ const MODULES: [&str; 26] = [
 const SWEEP: [&str; 6] = ["plan", "record", "store", "case", "share", "search"];
 
 /// Parts of the module `report` from top to bottom.
-const REPORT: [&str; 41] = [
+const REPORT: [&str; 42] = [
     "number",
     "words",
     "text",
@@ -49,6 +49,7 @@ const REPORT: [&str; 41] = [
     "table",
     "quantities",
     "table_reader",
+    "laws",
     "fit",
     "dynamic",
     "measured",

@@ -220,3 +220,56 @@ fn the_gel_of_the_creep_example_is_found_and_its_tables_go_by_time() {
     // The resolved file holds the segments and gives the same again.
     says(&place.text("gel/resolved.toml"), &["segments = ["]);
 }
+
+#[test]
+fn the_law_of_a_gel_is_found_from_its_relaxation_and_its_block_relaxes_alike() {
+    let place = Place::new();
+    let rest = "[material]\npoisson_ratio = 0.49\n[indenter]\nshape = \"sphere\"\nradius = \"5 um\"\n[drive]\ncontrol = \"approach\"\n\
+                segments = [ { kind = \"ramp\", to = \"0.5 um\", duration = \"0.1 s\" }, \
+                { kind = \"step\", to = \"0.5 um\", duration = \"100 s\" } ]\n";
+    let law = "[material.fractional]\nmodel = \"springpot\"\nmodulus = \"longitudinal\"\nstiffness = \"1 kPa\"\ntime = \"1 s\"\n\
+               exponent = 0.2\nband = [\"0.001 rad/s\", \"1000 rad/s\"]\n";
+    place.put("gel.toml", format!("title = \"gel\"\n{law}{rest}"));
+    place.done("simulate gel.toml --quiet --no-figures --out gel");
+    let history = place.table("gel/history.csv");
+    let columns = ["time_s", "load_n"].map(|name| history.numbers(name));
+    let rows = columns[0]
+        .iter()
+        .zip(&columns[1])
+        .filter(|(t, _)| **t >= 0.1);
+    let mut random = Random(3);
+    let rows =
+        rows.map(|(t, load_n)| format!("{t:e},{:e}\n", load_n * (1.0 + 0.01 * random.normal())));
+    let table = format!("time_s,load_n\n{}", rows.collect::<String>());
+    place.put("gel.csv", table);
+    place.put(
+        "find.toml",
+        format!("title = \"find\"\n[identify]\ndata = \"gel.csv\"\nlaw = \"auto\"\n{rest}"),
+    );
+    place.done("identify find.toml --quiet --out found");
+    let found = place.json("found/summary.json");
+    assert_eq!(found["law"], "power-law", "{}", found["laws"]);
+    for (name, exact) in [("modulus_pa", 1e3), ("exponent", 0.2)] {
+        let value = found["parameters"][name]["value"].as_f64().unwrap();
+        near!(value, exact, 0.02, "{name}");
+    }
+    // What lies outside the times measured is marked.
+    let moduli = place.table("found/figures/moduli.csv");
+    let marked = moduli.cells("extrapolated");
+    assert_eq!((marked[0], marked[marked.len() / 2]), ("true", "false"));
+    // The same gel relaxes as measured.
+    place.put(
+        "again.toml",
+        "title = \"again\"\n".to_owned()
+            + &place.text("found/material.toml")
+            + &rest.replace("[material]\npoisson_ratio = 0.49\n", ""),
+    );
+    place.done("simulate again.toml --quiet --no-figures --out again");
+    let last = |folder: &str| {
+        let loads = place
+            .table(&format!("{folder}/history.csv"))
+            .numbers("load_n");
+        loads[loads.len() - 1]
+    };
+    near!(last("again"), last("gel"), 0.01);
+}

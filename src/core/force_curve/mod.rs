@@ -29,7 +29,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::prelude::*;
 
 pub use fit::{CurveError, CurvePlan, fit};
-pub use found::{CurveFit, Drawn, Estimate, FittedLaw};
+pub use found::{CurveFit, Drawn};
 pub use record::ForceCurve;
 pub use touch::Nuisance;
 

@@ -8,6 +8,7 @@ use super::fit::CurvePlan;
 use super::record::Points;
 use super::springs::Springs;
 use super::touch::{Nuisance, Touch, nuisances};
+use crate::identify::laws::clamped;
 use crate::material::law::{Form, Scale};
 use crate::numerics::levenberg_marquardt::{Ending, Problem, Solution, minimise};
 use crate::quantity::Dimension;
@@ -20,10 +21,6 @@ pub(super) const EXACTLY: Ending = Ending {
     iterations: 30,
     enough: 1e-5,
 };
-
-/// The widest that an unknown may go: a modulus of nothing, an exponent of nearly zero or one.
-pub(super) const WIDEST_LOGARITHM: f64 = 80.0;
-const WIDEST_ODDS: f64 = 5.3;
 
 /// Steps of unknowns for derivatives; that of the contact point is a part of the indentation.
 const STEP: f64 = 0.01;
@@ -241,10 +238,6 @@ impl Problem for OfForm<'_> {
     }
 
     fn clamp(&self, place: usize, value: f64) -> f64 {
-        match self.form.scales().nth(place) {
-            Some(Scale::Odds) => value.clamp(-WIDEST_ODDS, WIDEST_ODDS),
-            Some(Scale::Logarithm(_)) => value.clamp(-WIDEST_LOGARITHM, WIDEST_LOGARITHM),
-            None => value,
-        }
+        clamped(self.form, place, value)
     }
 }

@@ -2,10 +2,9 @@
 
 use super::fit::CurvePlan;
 use super::record::ForceCurve;
-use crate::identify::resolved::{IDENTIFY_BRANCHES, branches_setting};
-use crate::identify::{MOST_BRANCHES, Sought};
+use crate::identify::Sought;
+use crate::identify::resolved::{IDENTIFY_BRANCHES, LAW, branches_setting};
 use crate::material::dynamic::MOST_REPLICAS;
-use crate::material::law::{Form, Law};
 use crate::quantity::Dimension;
 use crate::quantity::block::Block as _;
 use crate::quantity::key::{Entries, Kind, quantity};
@@ -14,34 +13,15 @@ use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::resolved::{compressibility, indenter_material_text};
 use crate::{block_with_defaults, keys};
 
-/// Laws by their names, and the word for all of them.
-const LAWS: &[&str] = &[
-    "auto",
-    Law::PowerLaw.name(),
-    Law::StandardSolid.name(),
-    Law::FractionalZener.name(),
-    Law::FractionalMaxwell.name(),
-    Law::KelvinVoigt.name(),
-    Law::Kww.name(),
-    Law::Series.name(),
-];
-
-const LAW_ENTRIES: Entries = Entries {
-    repeats: false,
-    ..Entries::of(1..=LAWS.len(), "write one law, or a list of several")
-};
-
 const CURVES: Entries = Entries::of(1..=100_000, "name at least one file of force curves");
 
 /// Most branches of a series where the curve is to choose.
-const MOST_CHOSEN: usize = 4;
+pub const MOST_CHOSEN: usize = 4;
 
 keys! {
     /// A force curve: a table with `time_s`, `force_n` and `indentation_m`, or with `piezo_m` and `deflection_m` or `force_n`; several
     /// curves where it has a column `curve`. Or a list of such files. Where the contact begins is found.
     CURVE = "curve", Kind::Texts(CURVES);
-    /// Laws between which the curve chooses: `auto` (the default) for all, a name, or a list of names.
-    LAW = "law", Kind::Words(LAWS, LAW_ENTRIES), optional;
     /// How often the law is fitted again with the noise drawn anew. Of a single curve the fits are replicas of the material, from which a sweep
     /// has a band about its loss.
     SAMPLES = "samples", Kind::Integer(0..=MOST_REPLICAS), or 0_usize;
@@ -73,23 +53,6 @@ pub struct CurvesPlan {
     /// As the file names them.
     pub files: Vec<String>,
     pub curves: Vec<ForceCurve>,
-}
-
-/// The laws of these names, all where there are none, and a series of so many branches.
-pub fn forms(laws: &[String], branches: Option<usize>) -> Vec<Form> {
-    let all = laws.is_empty() || laws.iter().any(|law| law == "auto");
-    let (fewest, most) = match (branches, all) {
-        (Some(asked), _) => (asked, asked.min(MOST_BRANCHES)),
-        (None, true) => (2, MOST_CHOSEN),
-        (None, false) => (1, MOST_CHOSEN),
-    };
-    let mut forms: Vec<Form> = (Form::all(1).into_iter())
-        .filter(|form| all || laws.iter().any(|law| law == form.law.name()))
-        .collect();
-    if all || laws.iter().any(|law| law == Law::Series.name()) {
-        forms.extend(Form::series(fewest, most));
-    }
-    forms
 }
 
 /// The plan as the text of an identification file.

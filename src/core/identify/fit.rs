@@ -6,6 +6,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::engine::EngineKind;
 use crate::identify::candidate::{Candidate, candidates, choose, leave_out_outlier};
+use crate::identify::chosen::with_laws;
 use crate::identify::identified::{CellError, Identified, judged};
 use crate::identify::model::Model;
 use crate::identify::noise::Knowledge;
@@ -74,7 +75,11 @@ pub fn identify(plan: &IdentifyPlan, interrupt: &AtomicBool) -> Result<Identifie
             };
         }
     }
-    at_full_resolution(&mut model, &linearised, found?)
+    let found = at_full_resolution(&mut model, &linearised, found?)?;
+    match plan.laws {
+        Some(_) => with_laws(&model, &mut linearised, found),
+        None => Ok(found),
+    }
 }
 
 impl IdentifyError {

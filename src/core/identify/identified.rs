@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 
 use crate::identify::candidate::Candidate;
 use crate::identify::data::Number;
+use crate::identify::laws::Laws;
 use crate::identify::model::Model;
 use crate::identify::noise::Knowledge;
 use crate::identify::selection::Linearised;
@@ -109,6 +110,9 @@ pub struct Identified {
     pub cell_error: Option<CellError>,
     /// The attraction that was found beside the series, where it was sought.
     pub adhesion: Option<AdhesionPlan>,
+    /// Laws that were tried beside series, where they were asked for: the material is the best of them.
+    pub laws: Option<Laws>,
+    pub(super) is_by_law: bool,
     pub(super) point: Point,
     directions: Directions,
     half_width: f64,
@@ -189,6 +193,8 @@ pub(super) fn judged(
         window_rad_per_s: measured.window_rad_per_s(),
         cell_error,
         adhesion: None,
+        laws: None,
+        is_by_law: false,
         point,
         directions,
         half_width,
@@ -242,6 +248,19 @@ impl Identified {
 
     /// The moduli at a frequency, with bands. Beyond the data they are an extrapolation.
     pub fn band(&self, angular_frequency_rad_per_s: f64) -> ModulusBand {
+        let of_laws = self.laws.as_ref();
+        let of_laws = of_laws.and_then(|laws| laws.band(angular_frequency_rad_per_s));
+        match (of_laws, self.law()) {
+            (Some(band), Some(_)) => band,
+            // A series is refined on the exact model; the laws tell how wide its band is.
+            (Some(band), None) => self
+                .band_of_series(angular_frequency_rad_per_s)
+                .widened(&band),
+            (None, _) => self.band_of_series(angular_frequency_rad_per_s),
+        }
+    }
+
+    fn band_of_series(&self, angular_frequency_rad_per_s: f64) -> ModulusBand {
         let own = moduli(&self.point, angular_frequency_rad_per_s);
         let compared = moduli(&self.linearised, angular_frequency_rad_per_s);
         let mut variances = own
@@ -262,6 +281,15 @@ impl Identified {
 }
 
 impl ModulusBand {
+    /// The same moduli with bands at least as wide as those of another.
+    fn widened(self, other: &Self) -> Self {
+        Self {
+            storage_factor: self.storage_factor.max(other.storage_factor),
+            loss_factor: self.loss_factor.max(other.loss_factor),
+            ..self
+        }
+    }
+
     /// Of the logarithms of storage and loss modulus (Pa) and their variances, this many standard deviations to either side.
     pub(crate) fn of(ln_moduli: [f64; 2], variances: [f64; 2], half_width: f64) -> Self {
         let factor = |variance: f64| (half_width * variance.sqrt()).min(WIDEST).exp();

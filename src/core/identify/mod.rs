@@ -22,6 +22,11 @@
 //! 5. The numbers are corrected by what twice the steps and springs or cells change at the solution, and the series is refined
 //!    once more, where that is seen beside the noise. On cells the intervals include this change.
 //!
+//! # Which law
+//!
+//! Where laws are asked for ([`laws`]), the factors of the exact model about the series serve every law; they are then taken about the law
+//! that is most likely, until they stand still.
+//!
 //! # How many branches
 //!
 //! Every number of branches is fitted. One more is taken where both the criterion of Akaike with the correction for few data
@@ -45,12 +50,15 @@
 
 mod adhesion;
 mod candidate;
+mod chosen;
 mod curve;
 pub mod data;
 mod fit;
 mod history;
 mod identified;
+pub mod laws;
 mod linear;
+pub mod material_laws;
 mod model;
 pub(crate) mod noise;
 pub mod resolved;
@@ -70,6 +78,7 @@ use crate::drive::{HarmonicDrive, SegmentedDrive};
 use crate::engine::SolverPlan;
 use crate::identify::data::{Measurements, TableColumns};
 use crate::indenter::Indenter;
+use crate::material::law::Form;
 use crate::material::{
     Compressibility, Material, MaterialError, ModulusKind, Relaxation, branches_in_words,
 };
@@ -114,6 +123,8 @@ pub struct IdentifyPlan {
     pub drive: Driven,
     /// How many branches; `None` lets the data choose.
     pub branches: Option<usize>,
+    /// Laws between which the data choose; `None` for series alone.
+    pub laws: Option<Vec<Form>>,
     pub measurements: Measurements,
     /// The file that they come from, as the plan names it.
     pub data: String,
@@ -174,6 +185,7 @@ impl IdentifyPlan {
             contact: ContactPlan::new(material, indenter),
             drive,
             branches: None,
+            laws: None,
             measurements,
             data: String::new(),
             approach_zero: None,

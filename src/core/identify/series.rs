@@ -129,6 +129,20 @@ impl Point {
         gaps.map(|gap| STIFFNESS * lack(gap)).collect()
     }
 
+    /// A series; where nothing later than some time (s) matters, with a spring in place of what relaxes much later.
+    pub(super) fn of(series: &Relaxation, longest_s: Option<f64>) -> Self {
+        const LATE: f64 = 1e4;
+        let latest_s = longest_s.map_or(f64::INFINITY, |longest_s| LATE * longest_s);
+        let is_late = |branch: &&RelaxationBranch| branch.time_s > latest_s;
+        let branches = series.branches().iter();
+        let springs = branches.clone().filter(is_late).map(|b| b.modulus_pa);
+        let equilibrium_pa = series.equilibrium_modulus() + springs.sum::<f64>();
+        let others = branches.filter(|branch| !is_late(branch));
+        let others = others.flat_map(|b| [b.modulus_pa.ln(), b.time_s.ln()]);
+        let equilibrium = equilibrium_pa.max(f64::MIN_POSITIVE).ln();
+        Self([equilibrium].into_iter().chain(others).collect())
+    }
+
     /// Moduli (Pa) and times (s) of the branches.
     pub(super) fn branches_pa_s(&self) -> Vec<(f64, f64)> {
         self.pairs().map(|b| (b[0].exp(), b[1].exp())).collect()

@@ -81,6 +81,31 @@ impl Scale {
     }
 }
 
+/// A law with values for its parameters.
+#[derive(Debug, Clone)]
+pub enum Solid {
+    Fractional(Fractional),
+    Series(Relaxation),
+}
+
+impl Solid {
+    /// E* (Pa).
+    pub fn complex_modulus_pa(&self, angular_frequency_rad_per_s: f64) -> Complex<f64> {
+        match self {
+            Self::Fractional(fractional) => fractional.complex_modulus(angular_frequency_rad_per_s),
+            Self::Series(series) => series.complex_modulus(angular_frequency_rad_per_s),
+        }
+    }
+
+    /// The Prony series that stands for it from the shortest to the longest time (s).
+    pub fn series_within(self, times_s: (f64, f64)) -> Option<Relaxation> {
+        match self {
+            Self::Fractional(fractional) => fractional.within(times_s).ok(),
+            Self::Series(series) => Some(series),
+        }
+    }
+}
+
 /// By which factor the times of a series go beyond those of a measurement.
 const BEYOND: f64 = 10.0;
 
@@ -119,6 +144,11 @@ impl Form {
             Law::KelvinVoigt => &[EQUILIBRIUM, MODULUS_PA, EXPONENT],
             Law::Series => &[EQUILIBRIUM],
         }
+    }
+
+    /// Whether it keeps a modulus at rest.
+    pub fn is_solid(self) -> bool {
+        !matches!(self.law, Law::PowerLaw | Law::FractionalMaxwell)
     }
 
     fn branches_of_series(self) -> usize {
@@ -168,25 +198,11 @@ impl Form {
         made.ok()
     }
 
-    /// E* (Pa) in closed form, of a stretched exponential that of its series; `None` of parameters that are none.
-    pub fn complex_modulus_pa(
-        self,
-        values: &[f64],
-        angular_frequency_rad_per_s: f64,
-    ) -> Option<Complex<f64>> {
-        let omega = angular_frequency_rad_per_s;
+    /// The law with these values of its parameters, where times between the shortest and the longest (s) matter; `None` of parameters that
+    /// are none.
+    pub fn solid(self, values: &[f64], times_s: (f64, f64)) -> Option<Solid> {
         if let Some(fractional) = self.fractional(values) {
-            return Some(fractional.complex_modulus(omega));
-        }
-        let beside = (1e-2 / omega, 1e2 / omega);
-        Some(self.series_within(values, beside)?.complex_modulus(omega))
-    }
-
-    /// The Prony series that stands for the law from the shortest to the longest time (s): what relaxes later is a spring in it, or all
-    /// but one. `None` of parameters that are none.
-    pub fn series_within(self, values: &[f64], times_s: (f64, f64)) -> Option<Relaxation> {
-        if let Some(fractional) = self.fractional(values) {
-            return fractional.within(times_s).ok();
+            return Some(Solid::Fractional(fractional));
         }
         let branch = |modulus_pa, time_s| RelaxationBranch { modulus_pa, time_s };
         let equilibrium_pa = *values.first()?;
@@ -199,7 +215,25 @@ impl Form {
                 pairs.map(|pair| branch(pair[0], pair[1])).collect()
             }
         };
-        Relaxation::new(equilibrium_pa, branches).ok()
+        let series = Relaxation::new(equilibrium_pa, branches);
+        series.ok().map(Solid::Series)
+    }
+
+    /// E* (Pa) in closed form, of a stretched exponential that of its series; `None` of parameters that are none.
+    pub fn complex_modulus_pa(
+        self,
+        values: &[f64],
+        angular_frequency_rad_per_s: f64,
+    ) -> Option<Complex<f64>> {
+        let omega = angular_frequency_rad_per_s;
+        let solid = self.solid(values, (1e-2 / omega, 1e2 / omega))?;
+        Some(solid.complex_modulus_pa(omega))
+    }
+
+    /// The Prony series that stands for the law from the shortest to the longest time (s): what relaxes later is a spring in it, or all
+    /// but one. `None` of parameters that are none.
+    pub fn series_within(self, values: &[f64], times_s: (f64, f64)) -> Option<Relaxation> {
+        self.solid(values, times_s)?.series_within(times_s)
     }
 
     /// Unknowns to begin a fit with, of a body of about this modulus (Pa) over these times (s).

@@ -5,16 +5,22 @@ use serde_json::{Value, json};
 use super::DynamicReport;
 use super::tables::celsius;
 use crate::material::dynamic::shift_law::{Arrhenius, ShiftLaw, Wlf};
+use crate::report::laws;
 
 /// The summary as an object; what is undefined is null.
 pub fn summary(report: &DynamicReport<'_>) -> Value {
-    let DynamicReport { source, data, made } = report;
+    let DynamicReport {
+        source,
+        data,
+        made,
+        laws,
+    } = report;
     let (master, fit) = (made.master.as_ref(), &made.fit);
     let preferred = master.and_then(|m| m.preferred).map(|law| match law {
         ShiftLaw::Wlf(_) => Wlf::NAME,
         ShiftLaw::Arrhenius(_) => Arrhenius::NAME,
     });
-    json!({
+    let mut summary = json!({
         "files": source.files,
         "format": source.format,
         "format_found_by": source.how,
@@ -41,7 +47,11 @@ pub fn summary(report: &DynamicReport<'_>) -> Value {
         "warnings": report.warnings(),
         "program": env!("CARGO_PKG_NAME"),
         "program_version": env!("CARGO_PKG_VERSION"),
-    })
+    });
+    if let (Some(laws), Some(object)) = (laws, summary.as_object_mut()) {
+        object.extend(laws::summary(laws));
+    }
+    summary
 }
 
 fn wlf(law: &Wlf) -> Value {
@@ -98,6 +108,7 @@ mod tests {
                 source: &source,
                 data: &data,
                 made,
+                laws: None,
             })
         };
         let all = report(&made);

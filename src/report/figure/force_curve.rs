@@ -61,7 +61,7 @@ fn over_indentation(Found { fit, .. }: &Found<'_>) -> Figure {
         .marks([Mark::vertical(fit.contact_point_m.value, "first contact")]);
     let caption = Caption::new(format!(
         "Force over indentation, and the force of the law that was found ({})",
-        fit.law().form.in_words()
+        fit.laws.best().form.in_words()
     ))
     .say("Means of samples; dashed: where the contact begins.");
     Figure::of("force-curve", &[plot], caption, &Units::default()).without_data()
@@ -90,7 +90,7 @@ fn storage_moduli(report: &CurvesReport<'_>) -> (f64, Vec<Option<(f64, f64)>>) {
     let middles: Vec<f64> = report.found().map(Found::middle).collect();
     let omega = median(&middles);
     let moduli = report.curves().iter().map(|(_, found)| {
-        let band = found.as_ref().ok()?.fit.band(omega)?;
+        let band = found.as_ref().ok()?.fit.laws.band(omega)?;
         Some((band.storage_pa, band.storage_factor))
     });
     (omega, moduli.collect())

@@ -7,24 +7,21 @@ use rayon::prelude::*;
 use serde_json::Value;
 
 use crate::force_curve::resolved::{CurvesPlan, resolved_text};
-use crate::force_curve::{CurveError, CurveFit, Drawn, Estimate, FittedLaw, ForceCurve};
+use crate::force_curve::{CurveError, CurveFit, Drawn, ForceCurve};
 use crate::identify::ModulusBand;
-use crate::material::law::{Form, Law, Scale};
 use crate::material::{Material, ModulusKind};
 use crate::quantity::{Dimension, format_human};
 use crate::report::dynamic::tables::prony;
 use crate::report::identify::tables::over;
+use crate::report::laws::{Named, laws_in_words, named, table};
 use crate::report::number::scientific;
-use crate::report::text::{Column, Table, Text};
+use crate::report::text::{Table, Text};
 use crate::report::words::listed;
 use crate::sweep::plan::resolved::material_text;
 use crate::sweep::store::files::{DATA, Place};
 
 /// The table of moduli over frequency.
 const MODULI_TABLE: Place<'_> = Place::Figure("moduli", DATA);
-
-/// The weight from which another law explains the curve as well.
-const NEARLY: f64 = 0.05;
 
 /// Laws of curves and what they came to.
 pub struct CurvesReport<'a> {
@@ -44,7 +41,7 @@ pub struct Found<'a> {
 impl<'a> Found<'a> {
     fn new(curve: &'a ForceCurve, fit: &'a CurveFit) -> Self {
         let omegas = over(fit.window_rad_per_s).into_iter();
-        let bands = omegas.filter_map(|omega| Some((omega, fit.band(omega)?)));
+        let bands = omegas.filter_map(|omega| Some((omega, fit.laws.band(omega)?)));
         Self {
             curve,
             fit,
@@ -57,28 +54,9 @@ impl<'a> Found<'a> {
         (self.fit.window_rad_per_s.0 * self.fit.window_rad_per_s.1).sqrt()
     }
 
-    /// Laws that explain the curve as well as the best.
-    fn others(&self) -> impl Iterator<Item = &FittedLaw> {
-        let others = self.fit.laws.iter().skip(1);
-        others.filter(|other| other.weight > NEARLY)
-    }
-
     /// Everything that was found with its interval: parameters of the law, contact point, what the instrument adds.
     pub fn named(&self) -> Vec<Named> {
-        let law = self.fit.law();
-        let parameters = law.form.parameters().into_iter().zip(&law.parameters);
-        let parameters = parameters.map(|(parameter, estimate)| Named {
-            dimension: match parameter.scale {
-                Scale::Logarithm(dimension) => Some(dimension),
-                Scale::Odds => None,
-            },
-            words: match parameter.scale {
-                Scale::Logarithm(_) => without_unit(&parameter.name),
-                Scale::Odds => parameter.name.replace('_', " "),
-            },
-            name: parameter.name,
-            estimate: *estimate,
-        });
+        let parameters = named(self.fit.laws.best());
         let contact_point = Named {
             name: "contact_point_m".to_owned(),
             words: "contact point".to_owned(),
@@ -92,27 +70,11 @@ impl<'a> Found<'a> {
             estimate: *estimate,
             dimension: nuisance.dimension(),
         });
-        parameters.chain([contact_point]).chain(nuisances).collect()
-    }
-}
-
-/// A number that was found.
-pub struct Named {
-    /// With its unit, as tables call it.
-    pub name: String,
-    words: String,
-    estimate: Estimate,
-    dimension: Option<Dimension>,
-}
-
-impl Named {
-    /// Value, and both ends of its interval, with units.
-    pub fn texts(&self) -> [String; 3] {
-        let Estimate { value, low, high } = self.estimate;
-        [value, low, high].map(|value| match self.dimension {
-            Some(dimension) => format_human(value, dimension, 4),
-            None => scientific(value, 4),
-        })
+        parameters
+            .into_iter()
+            .chain([contact_point])
+            .chain(nuisances)
+            .collect()
     }
 }
 
@@ -168,7 +130,7 @@ impl<'a> CurvesReport<'a> {
         if self.found().any(|found| !found.fit.ensemble.is_empty()) {
             files.push(top("ensemble.csv", tables::ensemble(self)));
         }
-        let series = self.single().and_then(|found| found.fit.series());
+        let series = self.single().and_then(|found| found.fit.laws.series());
         files.extend(series.map(|series| top("prony.csv", prony(&series))));
         files
     }
@@ -177,7 +139,7 @@ impl<'a> CurvesReport<'a> {
     pub fn block(&self) -> Option<String> {
         let fit = self.single()?.fit;
         let (kind, known) = (ModulusKind::Longitudinal, &self.plan.fit.compressibility);
-        let mut body = Material::from_relaxation(fit.series()?, kind, known.clone()).ok()?;
+        let mut body = Material::from_relaxation(fit.laws.series()?, kind, known.clone()).ok()?;
         let (lowest, highest) = fit.window_rad_per_s;
         body.origin.measured_window_s = Some((1.0 / highest, 1.0 / lowest));
         let drawn = fit.ensemble.iter();
@@ -205,7 +167,7 @@ impl<'a> CurvesReport<'a> {
     fn lines_of_many(&self) -> Vec<String> {
         let mut counts: Vec<(String, usize)> = Vec::new();
         for found in self.found() {
-            let law = found.fit.law().form.in_words();
+            let law = found.fit.laws.best().form.in_words();
             match counts.iter_mut().find(|(other, _)| *other == law) {
                 Some((_, count)) => *count += 1,
                 None => counts.push((law, 1)),
@@ -243,36 +205,20 @@ impl<'a> CurvesReport<'a> {
     /// The parameters of a single curve with their intervals.
     pub fn parameters(&self) -> Option<Table> {
         let found = self.single()?;
-        let columns = [
-            Column::left("", 24),
-            Column::right("value", 13),
-            Column::left("95 % interval", 0),
-        ];
-        let mut table = Table::new(2, columns);
-        for named in found.named() {
-            let [value, low, high] = named.texts();
-            table.row([named.words, value, format!("{low} to {high}")]);
-        }
-        Some(table)
+        Some(table(&found.named()))
     }
-}
-
-/// A name without its unit, which stands with the value.
-fn without_unit(name: &str) -> String {
-    let name = name.rsplit_once('_').map_or(name, |(name, _)| name);
-    name.replace('_', " ")
 }
 
 fn lines_of(found: &Found<'_>) -> Vec<String> {
     let Found { curve, fit, .. } = found;
-    let law = fit.law();
     let mut lines = Vec::new();
-    if fit.inflation > 1.0 {
+    let laws = &fit.laws;
+    if laws.inflation > 1.0 {
         lines.push(format!(
             "Warning: the law misses the curve: chi squared per degree of freedom is {}, and all intervals are {} times as wide as the \
              noise says. Indenter, units, spring constant, adhesion or a thin specimen may be the cause.",
-            scientific(fit.reduced_chi_squared, 2),
-            scientific(fit.inflation, 2)
+            scientific(laws.reduced_chi_squared, 2),
+            scientific(laws.inflation, 2)
         ));
     }
     lines.push(format!(
@@ -281,32 +227,9 @@ fn lines_of(found: &Found<'_>) -> Vec<String> {
         curve.time_s.len(),
         fit.points.time_s.len(),
         format_human(fit.points.noise_n, Dimension::Force, 2),
-        scientific(fit.reduced_chi_squared, 2)
+        scientific(laws.reduced_chi_squared, 2)
     ));
-    let others: Vec<String> = found
-        .others()
-        .map(|other| {
-            format!(
-                "{} ({})",
-                other.form.in_words(),
-                scientific(other.weight, 2)
-            )
-        })
-        .collect();
-    let chosen = format!(
-        "Law: {} (weight {})",
-        law.form.in_words(),
-        scientific(law.weight, 2)
-    );
-    lines.push(match (others.is_empty(), fit.laws.len()) {
-        (_, 1) => format!("Law: {}, as asked for.", law.form.in_words()),
-        (true, _) => format!("{chosen}; the curve tells it from all others that were tried."),
-        (false, _) => format!(
-            "{chosen}; the curve does not tell it from {}. The bands of the moduli hold what these say.",
-            listed(&others)
-        ),
-    });
-    lines.push(formula(law.form).to_owned());
+    lines.extend(laws_in_words(laws, "the curve", 'E'));
     let (lowest, highest) = fit.window_rad_per_s;
     let [from, to] =
         [lowest, highest].map(|omega| format_human(omega, Dimension::AngularFrequency, 3));
@@ -333,23 +256,4 @@ fn lines_of(found: &Found<'_>) -> Vec<String> {
         );
     }
     lines
-}
-
-/// What the parameters are of, in words.
-fn formula(form: Form) -> &'static str {
-    match form.law {
-        Law::PowerLaw => "E* = modulus (i\u{3c9} \u{b7} 1 s)^exponent, Young's modulus.",
-        Law::StandardSolid => "E(t) = equilibrium + modulus exp(-t/time), Young's modulus.",
-        Law::FractionalZener => {
-            "E* = equilibrium + modulus (i\u{3c9} time)^exponent / (1 + (i\u{3c9} time)^exponent), Young's modulus."
-        }
-        Law::FractionalMaxwell => {
-            "E* = modulus (i\u{3c9} time)^a / (1 + (i\u{3c9} time)^(a - b)), a = exponent, b = exponent_ratio a, Young's modulus."
-        }
-        Law::KelvinVoigt => {
-            "E* = equilibrium + modulus (i\u{3c9} \u{b7} 1 s)^exponent, Young's modulus."
-        }
-        Law::Kww => "E(t) = equilibrium + modulus exp(-(t/time)^exponent), Young's modulus.",
-        Law::Series => "E(t) = equilibrium + sum of modulus_i exp(-t/time_i), Young's modulus.",
-    }
 }

@@ -1,7 +1,7 @@
 //! The tables of force curves: a row for every curve, the points of the fits, the moduli with their bands, the ensemble.
 
 use super::{CurvesReport, Found};
-use crate::report::identify::tables::{MODULI, with_ends};
+use crate::report::identify::tables::{COLUMNS, MODULI, cells_of, with_ends};
 use crate::report::table::{Cell, cells, csv};
 
 /// `curves.csv`: a row for every curve.
@@ -27,20 +27,21 @@ pub fn curves(report: &CurvesReport<'_>) -> Vec<u8> {
             Ok(found) => {
                 let (fit, omega) = (found.fit, found.middle());
                 let values = fit
+                    .laws
                     .band(omega)
                     .map(|band| with_ends(omega, &band).map(Some));
                 let contact = fit.contact_point_m;
                 row.extend(cells![
                     "converged",
-                    fit.law().form.in_words(),
-                    fit.law().weight
+                    fit.laws.best().form.in_words(),
+                    fit.laws.best().weight
                 ]);
                 row.extend(values.unwrap_or([None; 7]).map(Cell::from));
                 row.extend(cells![
                     contact.value,
                     contact.low,
                     contact.high,
-                    fit.reduced_chi_squared,
+                    fit.laws.reduced_chi_squared,
                     String::new()
                 ]);
             }
@@ -112,11 +113,11 @@ pub fn ensemble(report: &CurvesReport<'_>) -> Vec<u8> {
 pub fn moduli(report: &CurvesReport<'_>) -> Vec<u8> {
     let is_single = report.single().is_some();
     let name = (!is_single).then_some("curve");
-    let columns: Vec<&str> = name.into_iter().chain(MODULI).collect();
-    let rows = report.found().flat_map(|Found { curve, bands, .. }| {
+    let columns: Vec<&str> = name.into_iter().chain(COLUMNS).collect();
+    let rows = report.found().flat_map(|Found { curve, bands, fit }| {
         bands.iter().map(move |(omega, band)| {
             let name = (!is_single).then(|| Cell::from(curve.name.clone()));
-            let values = with_ends(*omega, band).map(Cell::from);
+            let values = cells_of(*omega, band, fit.window_rad_per_s);
             name.into_iter().chain(values).collect::<Vec<Cell>>()
         })
     });

@@ -13,6 +13,7 @@ use crate::identify::{
 use crate::material::MaterialError;
 use crate::quantity::{Dimension, format_human};
 use crate::report::dynamic::tables::prony;
+use crate::report::laws::{self, laws_in_words};
 use crate::report::measured::columns::of_records;
 use crate::report::number::scientific;
 use crate::report::quantities;
@@ -71,13 +72,32 @@ impl IdentifyReport<'_> {
         lines.extend(self.columns());
         lines.extend(notes);
         lines.push(self.noise());
-        lines.push(self.series());
+        lines.extend(self.law());
         lines.push(self.window());
         lines.extend(self.cells());
-        lines.extend(self.open());
+        if self.found.law().is_none() {
+            lines.extend(self.open());
+        }
         lines.extend(self.beyond().map(warned));
         lines.extend(self.unknown_cell_error().map(warned));
-        lines.push(self.moduli().to_owned());
+        if self.found.law().is_none() {
+            lines.push(self.moduli().to_owned());
+        }
+        lines
+    }
+
+    /// Which law or series it is.
+    fn law(&self) -> Vec<String> {
+        let laws = self.found.laws.as_ref();
+        let mut lines: Vec<String> = laws
+            .map(|laws| laws_in_words(laws, "what was measured", 'E').to_vec())
+            .into_iter()
+            .flatten()
+            .collect();
+        if self.found.law().is_none() {
+            lines.truncate(1);
+            lines.push(self.series());
+        }
         lines
     }
 
@@ -290,6 +310,9 @@ impl IdentifyReport<'_> {
 
     /// That branches lie beyond the data.
     fn beyond(&self) -> Option<String> {
+        if self.found.law().is_some() {
+            return None;
+        }
         let (lowest, highest) = self.found.window_rad_per_s;
         let beyond = |time_s: f64| time_s * lowest > 1.0 || time_s * highest < 1.0;
         let branches = self.found.relaxation.branches().iter();
@@ -306,6 +329,9 @@ impl IdentifyReport<'_> {
 
     /// The unknowns with their intervals.
     pub fn unknowns(&self) -> Table {
+        if let Some(law) = self.found.law() {
+            return laws::table(&laws::named(law));
+        }
         let columns = [
             Column::left("", 6),
             Column::right("value", 13),

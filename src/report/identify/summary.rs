@@ -5,6 +5,7 @@ use serde_json::{Map, Value, json};
 use super::{IdentifyReport, dimension, tables};
 use crate::identify::data::Datum;
 use crate::identify::{CellError, Identified, Knowledge};
+use crate::report::laws;
 
 /// The summary as an object; what is undefined is null.
 pub fn summary(report: &IdentifyReport<'_>) -> Value {
@@ -43,7 +44,7 @@ pub fn summary(report: &IdentifyReport<'_>) -> Value {
     let read = &report.plan.columns;
     let set_aside = read.set_aside.iter();
     let set_aside = set_aside.map(|(column, why)| json!({ "column": column, "reason": why }));
-    json!({
+    let mut summary = json!({
         "title": report.plan.title,
         "of": if measured.is_history() { "history" } else { "cycles" },
         "numbers": found.compared.len(),
@@ -80,7 +81,11 @@ pub fn summary(report: &IdentifyReport<'_>) -> Value {
         "warnings": report.warnings(),
         "program": env!("CARGO_PKG_NAME"),
         "program_version": env!("CARGO_PKG_VERSION"),
-    })
+    });
+    if let (Some(laws), Some(object)) = (&found.laws, summary.as_object_mut()) {
+        object.extend(laws::summary(laws));
+    }
+    summary
 }
 
 /// The number that is missed by the most of its errors.
@@ -101,10 +106,9 @@ fn moduli(report: &IdentifyReport<'_>) -> Vec<Map<String, Value>> {
     let mut omegas: Vec<f64> = data.map(Datum::angular_frequency).collect();
     omegas.sort_by(f64::total_cmp);
     omegas.dedup();
-    let moduli = omegas.into_iter().map(|omega| {
-        let values = tables::moduli_at(report, omega).map(Value::from);
-        let names = tables::MODULI.map(str::to_owned);
-        names.into_iter().zip(values).collect()
-    });
+    let found = report.found;
+    let moduli = omegas
+        .into_iter()
+        .map(|omega| tables::row(omega, &found.band(omega), found.window_rad_per_s));
     moduli.collect()
 }

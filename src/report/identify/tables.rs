@@ -1,5 +1,7 @@
 //! The tables of an identification: measured and computed numbers, and the moduli with their bands.
 
+use serde_json::{Map, Value};
+
 use super::IdentifyReport;
 use crate::identify::ModulusBand;
 use crate::report::table::{Cell, cells, csv};
@@ -48,9 +50,44 @@ pub(in crate::report) const MODULI: [&str; 7] = [
     "loss_modulus_high_pa",
 ];
 
-/// The values of [`MODULI`] at an angular frequency (rad/s).
-pub(super) fn moduli_at(report: &IdentifyReport<'_>, omega: f64) -> [f64; 7] {
-    with_ends(omega, &report.found.band(omega))
+/// The columns of `moduli.csv`: behind these whether the frequency lies outside what was measured.
+pub(in crate::report) const COLUMNS: [&str; 8] = {
+    let mut columns = [EXTRAPOLATED; 8];
+    let mut k = 0;
+    while k < MODULI.len() {
+        columns[k] = MODULI[k];
+        k += 1;
+    }
+    columns
+};
+const EXTRAPOLATED: &str = "extrapolated";
+
+/// Whether a frequency lies outside a window, by more than rounding.
+fn is_outside(omega: f64, (lowest, highest): (f64, f64)) -> bool {
+    omega < lowest * (1.0 - 1e-9) || omega > highest * (1.0 + 1e-9)
+}
+
+/// A row of `moduli.csv`.
+pub(in crate::report) fn cells_of(
+    omega: f64,
+    band: &ModulusBand,
+    window_rad_per_s: (f64, f64),
+) -> Vec<Cell> {
+    let values = with_ends(omega, band).map(Cell::from);
+    let outside = Cell::from(is_outside(omega, window_rad_per_s).to_string());
+    values.into_iter().chain([outside]).collect()
+}
+
+/// The same for the summary.
+pub(in crate::report) fn row(
+    omega: f64,
+    band: &ModulusBand,
+    window_rad_per_s: (f64, f64),
+) -> Map<String, Value> {
+    let values = with_ends(omega, band).map(Value::from).into_iter();
+    let values = values.chain([is_outside(omega, window_rad_per_s).into()]);
+    let names = COLUMNS.map(str::to_owned).into_iter();
+    names.zip(values).collect()
 }
 
 /// The values of [`MODULI`] of a band.
@@ -71,11 +108,10 @@ pub(in crate::report) fn with_ends(omega: f64, band: &ModulusBand) -> [f64; 7] {
 
 /// `moduli.csv`: E' and E'' with their 95 % bands, over the data and a little beyond.
 pub fn moduli(report: &IdentifyReport<'_>) -> Vec<u8> {
+    let found = report.found;
     let rows = frequencies(report).into_iter();
-    csv(
-        &MODULI,
-        rows.map(|omega| moduli_at(report, omega).map(Cell::from)),
-    )
+    let rows = rows.map(|omega| cells_of(omega, &found.band(omega), found.window_rad_per_s));
+    csv(&COLUMNS, rows)
 }
 
 /// Angular frequencies (rad/s) for smooth curves of the moduli.

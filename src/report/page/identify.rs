@@ -3,11 +3,12 @@
 use maud::{Markup, html};
 
 use super::question::list;
-use super::{Pictures, plain, scroll};
+use super::{Pictures, force_curve, plain, scroll};
 use crate::quantity::format_human;
 use crate::report::ReportError;
 use crate::report::figure::Figure;
 use crate::report::identify::{IdentifyReport, dimension};
+use crate::report::laws::named;
 use crate::report::number::{digits, scientific};
 
 /// The page; the pictures of the figures have gone by, `block` is the `[material]` block.
@@ -22,13 +23,24 @@ pub fn page(
 ) -> Result<String, ReportError> {
     let content = html! {
         (list(report.lines()))
-        h3 { "Moduli and times" }
-        (scroll("Moduli and times", unknowns(report)))
+        @if let Some(law) = report.found.law() {
+            h3 { "Parameters" }
+            (scroll("Parameters", force_curve::parameters(&named(law))))
+        } @else {
+            h3 { "Moduli and times" }
+            (scroll("Moduli and times", unknowns(report)))
+        }
         (pictures.whole(figures))
+        @if let Some(laws) = &report.found.laws {
+            h3 { "Laws" }
+            (scroll("Laws", force_curve::laws(laws)))
+        }
         h3 { "Number of branches" }
         (scroll("Numbers of branches", candidates(report)))
-        h3 { "Correlations" }
-        (scroll("Correlations", correlations(report)))
+        @if report.found.law().is_none() {
+            h3 { "Correlations" }
+            (scroll("Correlations", correlations(report)))
+        }
     };
     let asked = match report.plan.measurements.is_history() {
         true => "which solid has this history",

@@ -199,6 +199,7 @@ mod tests {
                 source: &source,
                 data: &data,
                 made,
+                laws: None,
             };
             let figures = figures(&report);
             for figure in &figures {

@@ -1,0 +1,145 @@
+//! Laws beside series: fitted on the linearised contact with the factors of the exact model, which are taken about the law that is chosen
+//! until they stand still.
+
+use nalgebra::DVector;
+
+use super::identified::{Compared, Identified};
+use super::laws::{FittedLaw, Laws, Numbers, OfLaw, fitted};
+use super::model::Model;
+use super::noise::Knowledge;
+use super::selection::Linearised;
+use super::series::Point;
+use super::{IdentifyError, IdentifyPlan};
+use crate::material::Relaxation;
+use crate::material::law::{Form, Law, Solid};
+use crate::numerics::levenberg_marquardt::Problem as _;
+
+/// How often the factors are taken, and the change that is none.
+const ROUNDS: usize = 12;
+const SETTLED: f64 = 1e-3;
+
+/// A law with unknowns to begin with.
+type Start = (Form, Vec<Vec<f64>>);
+
+/// What was found with the laws that were asked for beside its series; where another law is more likely than the series, that law in its
+/// place.
+pub(super) fn with_laws(
+    model: &Model<'_>,
+    linearised: &mut Linearised<'_>,
+    mut found: Identified,
+) -> Result<Identified, IdentifyError> {
+    let plan = linearised.plan;
+    let (lowest, highest) = plan.measurements.window_rad_per_s();
+    let numbers = Numbers {
+        count: plan.measurements.data().len(),
+        is_noise_known: found.knowledge != Knowledge::None,
+        times_s: (1.0 / highest, 1.0 / lowest),
+    };
+    // A history ends before what relaxes later; a cycle settles when all has relaxed.
+    let end_s = plan.measurements.is_history().then_some(numbers.times_s.1);
+    let starts = starts(plan, &found, &numbers);
+    let computed = found.compared.iter().map(|c| Some(c.computed));
+    linearised.take_factors(&found.point, &computed.collect::<Vec<_>>(), 1.0);
+    let mut last = None;
+    for _ in 0..ROUNDS {
+        let residuals = |solid: &Solid| {
+            let series = solid.clone().series_within(numbers.times_s)?;
+            let point = Point::of(&series, end_s);
+            let relative = linearised.relative(&point).into_iter();
+            let scaled = relative.zip(&linearised.noise.relative);
+            Some(DVector::from_vec(
+                scaled.map(|(off, error)| off / error).collect(),
+            ))
+        };
+        let laws = fitted(&starts, &numbers, &residuals);
+        let laws = laws.ok_or(IdentifyError::NoFit("no law could be tried"))?;
+        let best = laws.best();
+        let form = best.form;
+        if is_series(form) && form.branches == found.relaxation.branches().len() {
+            found.laws = Some(laws);
+            return Ok(found);
+        }
+        let derivatives = OfLaw {
+            form,
+            times_s: numbers.times_s,
+            residuals: &residuals,
+        }
+        .derivatives(&best.unknowns)
+        .ok_or(IdentifyError::NoFit("the law has no derivatives there"))?;
+        let series = laws.series();
+        let series = series.ok_or(IdentifyError::NoFit("the law has no series"))?;
+        let point = Point::of(&series, end_s);
+        let series = point.relaxation()?;
+        let exact = model.numbers_where_found(&series)?;
+        let change = linearised.take_factors(&point, &exact, 1.0);
+        if change < SETTLED && last == Some(form) {
+            let exact: Option<Vec<f64>> = exact.into_iter().collect();
+            let exact = exact.ok_or(IdentifyError::NoFit("a cycle of the law was not found"))?;
+            let gradients = derivatives.row_iter().zip(&linearised.noise.relative);
+            let factors = gradients
+                .map(|(row, error)| best.factor(&(row.transpose() * *error), laws.half_width));
+            let factors: Vec<f64> = factors.collect();
+            return Ok(found.by_law(laws, series, &exact, &factors));
+        }
+        last = Some(form);
+    }
+    Err(IdentifyError::NoFit(
+        "the contact under the law that is most likely changes with every refinement of it; ask for `law = \"series\"`",
+    ))
+}
+
+/// Whether a form is one of those that the search for series has found.
+fn is_series(form: Form) -> bool {
+    matches!(form.law, Law::Series | Law::StandardSolid)
+}
+
+/// The laws that were asked for: of series the one that the data ask for, others from where a fit begins.
+fn starts(plan: &IdentifyPlan, found: &Identified, numbers: &Numbers) -> Vec<Start> {
+    let branches = found.relaxation.branches().len();
+    let forms = plan.laws.iter().flatten().copied();
+    let forms = forms.filter(|form| form.law != Law::Series || form.branches == branches);
+    let modulus_pa =
+        (found.point).complex_modulus((1.0 / numbers.times_s.0 / numbers.times_s.1).sqrt());
+    let start = |form: Form| {
+        let starts = match is_series(form) {
+            false => form.starts(modulus_pa.norm(), numbers.times_s),
+            true => {
+                let mut candidates = found.candidates.iter();
+                let own = candidates.find(|c| c.branches == form.branches && !c.has_close_times)?;
+                vec![own.point.0.clone()]
+            }
+        };
+        Some((form, starts))
+    };
+    forms.filter_map(start).collect()
+}
+
+impl Identified {
+    /// The same by a law in place of the series: with its series, the numbers computed with it and the factors of their bands.
+    fn by_law(mut self, laws: Laws, series: Relaxation, exact: &[f64], factors: &[f64]) -> Self {
+        let all = self.compared.iter().zip(exact).zip(factors);
+        let compared = all.map(|((compared, computed), factor)| Compared {
+            computed: *computed,
+            factor: *factor,
+            ..*compared
+        });
+        self.compared = compared.collect();
+        self.relaxation = series;
+        self.degrees_of_freedom = laws.degrees_of_freedom;
+        self.reduced_chi_squared = laws.reduced_chi_squared;
+        self.inflation = laws.inflation;
+        self.unknowns.clear();
+        self.correlations.clear();
+        self.undetermined.clear();
+        self.singular_values.clear();
+        self.is_by_law = true;
+        self.laws = Some(laws);
+        self
+    }
+
+    /// The law in place of the series that the data ask for; `None` where the material is that.
+    pub fn law(&self) -> Option<&FittedLaw> {
+        let laws = self.laws.as_ref().filter(|_| self.is_by_law)?;
+        Some(laws.best())
+    }
+}

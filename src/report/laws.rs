@@ -1,0 +1,169 @@
+//! Laws that were fitted to the same numbers, in words and for the summary: which is chosen, from which others it is not told, its parameters.
+
+use serde_json::{Map, Value, json};
+
+use super::number::scientific;
+use super::text::{Column, Table, Text};
+use super::words::listed;
+use crate::identify::laws::{Estimate, FittedLaw, Laws};
+use crate::material::law::{Form, Law, Scale};
+use crate::material::{MaterialFunction, ModulusKind, Relaxation};
+use crate::quantity::{Dimension, format_human};
+
+/// A number that was found.
+pub struct Named {
+    /// With its unit, as tables call it.
+    pub name: String,
+    pub(super) words: String,
+    pub(super) estimate: Estimate,
+    pub(super) dimension: Option<Dimension>,
+}
+
+impl Named {
+    /// Value, and both ends of its interval, with units.
+    pub fn texts(&self) -> [String; 3] {
+        let Estimate { value, low, high } = self.estimate;
+        [value, low, high].map(|value| match self.dimension {
+            Some(dimension) => format_human(value, dimension, 4),
+            None => scientific(value, 4),
+        })
+    }
+}
+
+/// The parameters of a law.
+pub fn named(law: &FittedLaw) -> Vec<Named> {
+    let parameters = law.form.parameters().into_iter().zip(&law.parameters);
+    let parameters = parameters.map(|(parameter, estimate)| Named {
+        dimension: match parameter.scale {
+            Scale::Logarithm(dimension) => Some(dimension),
+            Scale::Odds => None,
+        },
+        words: match parameter.scale {
+            Scale::Logarithm(_) => without_unit(&parameter.name),
+            Scale::Odds => parameter.name.replace('_', " "),
+        },
+        name: parameter.name,
+        estimate: *estimate,
+    });
+    parameters.collect()
+}
+
+/// Numbers with their intervals.
+pub fn table(all: &[Named]) -> Table {
+    let columns = [
+        Column::left("", 24),
+        Column::right("value", 13),
+        Column::left("95 % interval", 0),
+    ];
+    let mut table = Table::new(2, columns);
+    for named in all {
+        let [value, low, high] = named.texts();
+        table.row([named.words.clone(), value, format!("{low} to {high}")]);
+    }
+    table
+}
+
+/// A name without its unit, which stands with the value.
+fn without_unit(name: &str) -> String {
+    let name = name.rsplit_once('_').map_or(name, |(name, _)| name);
+    name.replace('_', " ")
+}
+
+/// Which law was found of `what`, and from which others that does not tell it; below it the law itself, of the modulus with this symbol.
+pub fn laws_in_words(laws: &Laws, what: &str, symbol: char) -> [String; 2] {
+    let law = laws.best();
+    let others = laws.others().map(|other| {
+        let weight = scientific(other.weight, 2);
+        format!("{} ({weight})", other.form.in_words())
+    });
+    let others: Vec<String> = others.collect();
+    let words = law.form.in_words();
+    let weight = scientific(law.weight, 2);
+    let chosen = match (others.is_empty(), laws.all.len()) {
+        (_, 1) => format!("Law: {words}, as asked for."),
+        (true, _) => {
+            format!(
+                "Law: {words} (weight {weight}); {what} tells it from all others that were tried."
+            )
+        }
+        (false, _) => format!(
+            "Law: {words} (weight {weight}); {what} does not tell it from {}. The bands of the moduli hold what these say.",
+            listed(&others)
+        ),
+    };
+    let modulus = if symbol == 'G' {
+        "shear modulus"
+    } else {
+        "Young's modulus"
+    };
+    let formula = formula(law.form);
+    let formula = formula.strip_prefix('E').unwrap_or(formula);
+    [chosen, format!("{symbol}{formula}, {modulus}.")]
+}
+
+/// The same of data to which a series was fitted, of a modulus of this kind.
+pub fn text(laws: &Laws, kind: ModulusKind) -> Text {
+    let symbol = MaterialFunction::Relaxation.symbol(kind);
+    laws_in_words(laws, "what was measured", symbol)
+        .into_iter()
+        .collect()
+}
+
+/// The series of a law that is more likely than the series that was fitted before; `None` where that is as good.
+pub fn series_in_place(laws: &Laws) -> Option<Relaxation> {
+    match laws.best().form.law {
+        Law::Series => None,
+        _ => laws.series(),
+    }
+}
+
+/// The interval of a number as an object.
+pub fn estimate(estimate: &Estimate) -> Value {
+    json!({ "value": estimate.value, "low": estimate.low, "high": estimate.high })
+}
+
+/// What the summary says of laws.
+pub fn summary(laws: &Laws) -> Map<String, Value> {
+    let best = laws.best();
+    let names = best.form.parameters().into_iter().map(|p| p.name);
+    let parameters: Map<String, Value> = names.zip(best.parameters.iter().map(estimate)).collect();
+    let all = laws.all.iter().map(|law: &FittedLaw| {
+        json!({
+            "law": law.form.law.name(),
+            "branches": (law.form.law == Law::Series).then_some(law.form.branches),
+            "weight": law.weight,
+            "schwarz": law.schwarz,
+            "chi_squared": law.chi_squared,
+        })
+    });
+    let all: Vec<Value> = all.collect();
+    [
+        ("law", json!(best.form.law.name())),
+        ("laws", json!(all)),
+        (
+            "law_is_told_from_others",
+            json!(laws.others().next().is_none()),
+        ),
+        ("parameters", json!(parameters)),
+    ]
+    .map(|(key, value)| (key.to_owned(), value))
+    .into_iter()
+    .collect()
+}
+
+/// What the parameters are of.
+fn formula(form: Form) -> &'static str {
+    match form.law {
+        Law::PowerLaw => "E* = modulus (i\u{3c9} \u{b7} 1 s)^exponent",
+        Law::StandardSolid => "E(t) = equilibrium + modulus exp(-t/time)",
+        Law::FractionalZener => {
+            "E* = equilibrium + modulus (i\u{3c9} time)^exponent / (1 + (i\u{3c9} time)^exponent)"
+        }
+        Law::FractionalMaxwell => {
+            "E* = modulus (i\u{3c9} time)^a / (1 + (i\u{3c9} time)^(a - b)), a = exponent, b = exponent_ratio a"
+        }
+        Law::KelvinVoigt => "E* = equilibrium + modulus (i\u{3c9} \u{b7} 1 s)^exponent",
+        Law::Kww => "E(t) = equilibrium + modulus exp(-(t/time)^exponent)",
+        Law::Series => "E(t) = equilibrium + sum of modulus_i exp(-t/time_i)",
+    }
+}
