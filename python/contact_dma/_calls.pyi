@@ -400,7 +400,7 @@ class MaterialForms:
         loss_modulus: ArrayLike | None = None,
         tan_delta: ArrayLike | None = None,
         temperature: ArrayLike | None = None,
-        format: Literal["table", "pyvisco", "trios-text", "trios-lims", "trios-csv", "rheocompass", "reptate", "eplexor", "hysitron"] | None = None,
+        format: Literal["table", "pyvisco", "trios-text", "trios-lims", "trios-csv", "trios-json", "rheocompass", "reptate", "eplexor", "hysitron"] | None = None,
         modulus: Literal["longitudinal", "shear"] = "longitudinal",
         reference_temperature: Quantity | None = None,
         shift: Literal["free", "wlf", "arrhenius", "none"] | Mapping[str, Any] | None = None,
@@ -421,7 +421,7 @@ class MaterialForms:
             loss_modulus: Loss moduli (Pa).
             tan_delta: Loss factors in place of the loss moduli.
             temperature: Temperatures (K, or strings such as `"20 °C"`) of several isotherms.
-            format: Format of the files; left out: detected from their content. "table", "pyvisco", "trios-text", "trios-lims", "trios-csv", "rheocompass", "reptate", "eplexor" or "hysitron".
+            format: Format of the files; left out: detected from their content. "table", "pyvisco", "trios-text", "trios-lims", "trios-csv", "trios-json", "rheocompass", "reptate", "eplexor" or "hysitron".
             modulus: Whether the moduli are Young's or shear moduli. "longitudinal" or "shear".
             reference_temperature: Temperature of the master curve; left out: that of the middle isotherm. A temperature above zero.
             shift: How isotherms are shifted onto one curve: each individually (`free`, the default), by a law fitted to the data, not at all, or by factors from a file. "free", "wlf", "arrhenius" or "none", or a table with a file.

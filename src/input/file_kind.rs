@@ -36,7 +36,7 @@ const BEGINNINGS: [(&[u8], &str, &str); 12] = [
         "a force curve of a Bruker NanoScope",
         EXPORT,
     ),
-    (b"\x05\0\x01", "a wave of Igor Pro (.ibw)", EXPORT),
+    (b"\x05\0\x01", "a wave of Igor Pro (.ibw)", AS_CURVE),
     (b"PAR1", "a Parquet file", EXPORT),
 ];
 
@@ -46,7 +46,7 @@ const IN_ARCHIVE: [(&str, &str, &str); 4] = [
     (
         "header.properties",
         "a force curve or map of JPK instruments",
-        EXPORT,
+        AS_CURVE,
     ),
     ("word/document.xml", "a Word document (.docx)", EXPORT),
     ("content.xml", "an OpenDocument file", SAVE_SHEET),
@@ -54,6 +54,8 @@ const IN_ARCHIVE: [(&str, &str, &str); 4] = [
 
 const SAVE_SHEET: &str = "save the sheet of the data as CSV";
 const EXPORT: &str = "export the data as text or CSV from the program that wrote it";
+const AS_CURVE: &str =
+    "name it in an identification file, `[identify]` with `curve`: `identify` reads force curves";
 const UNPACK: &str = "unpack it, and name the file in it";
 
 /// Refuses bytes that are a known kind of file other than text, saying what they are.

@@ -264,7 +264,7 @@ fn files_of_instruments_are_read_in_their_own_calibration() {
         |forces: &[f64]| forces.iter().fold(f64::NEG_INFINITY, |a, b| a.max(*b)) - forces[0];
     let first = |forces: &[f64]| forces[0];
     type Of<'a> = &'a dyn Fn(&[f64]) -> f64;
-    let cases: [(&str, usize, f64, Of<'_>, f64, f64); 3] = [
+    let cases: [(&str, usize, f64, Of<'_>, f64, f64); 5] = [
         (
             "creep-polymer-gel.jpk-force",
             9000,
@@ -282,6 +282,9 @@ fn files_of_instruments_are_read_in_their_own_calibration() {
             0.01,
         ),
         ("SiN.ibw", 2016, 1.0081, &largest, 10.0e-9, 0.01),
+        // A trigger of 50 nN, and 50 mN.
+        ("chiaro.txt", 1153, 13.9, &largest, 50.0e-9, 0.05),
+        ("Exp-50mN_0000.hld", 1068, 50.0, &largest, 50.0e-3, 0.05),
     ];
     for (file, samples, duration_s, of, force_n, within) in cases {
         place.put("one.toml", instrument(file));
@@ -299,6 +302,21 @@ fn files_of_instruments_are_read_in_their_own_calibration() {
         &run.stdout,
         &["the retraction pulls", "the law misses the curve"],
     );
+    // The program of the instrument says 117 Pa by the model of H. Hertz.
+    place.put(
+        "gel.toml",
+        instrument("chiaro.txt")
+            .replace("2.5 um", "27.5 um")
+            .replace("0.49", "0.5"),
+    );
+    place.done("identify gel.toml --quiet --force --set identify.law=power-law --out gel");
+    let modulus_pa = &place.json("gel/summary.json")["parameters"]["modulus_pa"]["value"];
+    near!(modulus_pa.as_f64().unwrap(), 117.0, 0.15);
+    // Two tests on fused silica in a workbook.
+    place.put("tests.toml", instrument("Example.xls"));
+    place.done("identify tests.toml --quiet --out tests --no-figures");
+    let table = place.table("tests/curves.csv");
+    assert_eq!(table.cells("curve"), ["Test 002", "Test 001"]);
     place.put("map.toml", instrument("four-of-a-map.jpk-force-map"));
     place.done("identify map.toml --quiet --out map");
     let table = place.table("map/curves.csv");
@@ -313,7 +331,13 @@ fn a_file_of_an_instrument_that_is_cut_short_is_refused_and_nothing_panics() {
     let place = Place::new();
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/instruments");
     let mut random = Random(11);
-    for file in ["SiN.ibw", "relaxation-cell.jpk-force"] {
+    for file in [
+        "SiN.ibw",
+        "relaxation-cell.jpk-force",
+        "Example.xls",
+        "chiaro.txt",
+        "Exp-50mN_0000.hld",
+    ] {
         let whole = fs::read(folder.join(file)).unwrap();
         for _ in 0..6 {
             let mut bytes = whole[..(whole.len() as f64 * random.unit()) as usize].to_vec();

@@ -21,7 +21,15 @@ const SHIFTS: &str = "Shiftlist";
 /// # Errors
 /// No workbook, no sheet with dynamic data, or what [`super::block::Block::read`] refuses.
 pub(super) fn read(name: &str, bytes: &[u8], reading: &mut Reading) -> Result<(), Diagnostics> {
-    let sheets = workbook::read(name, bytes)?;
+    read_sheets(name, &workbook::read(name, bytes)?, reading)
+}
+
+/// The same from sheets, each with its name, as a text with tabs.
+pub(super) fn read_sheets(
+    name: &str,
+    sheets: &[(String, String)],
+    reading: &mut Reading,
+) -> Result<(), Diagnostics> {
     let shifts = sheets.iter().find(|(sheet, _)| sheet == SHIFTS);
     let is_named = sheets.iter().any(|(sheet, _)| sheet == DATA);
     let wanted = sheets.iter().filter(|(sheet, _)| match is_named {

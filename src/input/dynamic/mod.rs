@@ -58,6 +58,7 @@ words! {
         TriosText = "trios-text",
         TriosLims = "trios-lims",
         TriosCsv = "trios-csv",
+        TriosJson = "trios-json",
         RheoCompass = "rheocompass",
         Reptate = "reptate",
         Eplexor = "eplexor",
@@ -166,6 +167,12 @@ fn one_file(
         eplexor::read(name, bytes, reading)?;
         return Ok(DynamicFormat::Eplexor);
     }
+    if format == Some(DynamicFormat::TriosJson) || (format.is_none() && trios_json::is_it(bytes)) {
+        let reason = format.map_or("a JSON export of TRIOS", |_| "as asked for");
+        reading.note(format!("format trios-json: {reason}"));
+        eplexor::read_sheets(name, &trios_json::sheets(name, bytes)?, reading)?;
+        return Ok(DynamicFormat::TriosJson);
+    }
     let source = text(name, bytes, reading)?;
     let is_it = |known: &Format| match format {
         Some(format) => (known.format == format).then(|| "as asked for".to_owned()),
@@ -200,9 +207,9 @@ fn text(name: &str, bytes: &[u8], reading: &mut Reading) -> Result<Arc<Source>, 
     if source.text().trim_start().starts_with(['{', '<']) {
         return Err(Diagnostic::at(
             &grid::Grid::new(&source, ',').place(0),
-            "JSON and XML are not read",
+            "JSON and XML of other programs than TRIOS are not read",
         )
-        .help("export a table as text or CSV; of TRIOS: `Export to LIMS`, or CSV")
+        .help("export a table as text or CSV; of TRIOS: JSON, `Export to LIMS`, or CSV")
         .into());
     }
     Ok(source)
@@ -345,5 +352,6 @@ fn summary(data: &DynamicData) -> String {
 
 #[cfg(test)]
 mod tests;
+mod trios_json;
 #[cfg(test)]
 mod workbook;

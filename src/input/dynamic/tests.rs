@@ -5,6 +5,7 @@ mod pyvisco;
 mod reptate;
 mod rheocompass;
 mod trios_csv;
+mod trios_json;
 mod trios_lims;
 mod trios_text;
 

@@ -1,9 +1,11 @@
 //! Force curves: tables of time, force and indentation, and the files of instruments.
 
+mod exported;
 mod igor;
 mod jpk;
 mod table;
 
+use super::data_file::workbook;
 use super::diagnostic::Diagnostics;
 use crate::force_curve::ForceCurve;
 use crate::force_curve::resolved::Probe;
@@ -23,7 +25,13 @@ pub(super) fn parse(
     if igor::is_wave(bytes) {
         return Ok(vec![igor::parse(name, bytes, probe)?]);
     }
-    table::parse(name, bytes, probe)
+    if workbook::is_workbook(bytes) {
+        return exported::of_workbook(name, bytes, probe);
+    }
+    match exported::as_table(bytes) {
+        Some(text) => table::parse(name, text.as_bytes(), probe),
+        None => table::parse(name, bytes, probe),
+    }
 }
 
 /// What a curve of a file is called.

@@ -18,10 +18,10 @@ const CURVE: Column = Column::pure(
 const COLUMNS: [Column; 6] = [
     TIME,
     Column::new(&["force", "load", "normal_force"], Force, "forces").by_first_name().optional(),
-    Column::new(&["indentation", "depth", "approach", "penetration", "tip_sample_separation"], Length, "indentations")
+    Column::new(&["indentation", "depth", "approach", "penetration", "tip_sample_separation", "disp"], Length, "indentations")
         .by_first_name().optional(),
     Column::new(&["piezo", "z_piezo", "piezo_position", "height", "z"], Length, "piezo positions").by_first_name().optional(),
-    Column::new(&["deflection", "cantilever_deflection", "vertical_deflection"], Length, "deflections").by_first_name().optional(),
+    Column::new(&["deflection", "cantilever_deflection", "vertical_deflection", "cantilever"], Length, "deflections").by_first_name().optional(),
     CURVE,
 ];
 
