@@ -216,7 +216,7 @@ impl Body {
             source: &source,
             data: &dynamic.file.data,
             made: &dynamic.made,
-            laws: None,
+            beside: None,
         };
         let files = report.files(&self.text, None);
         let notes = source.notes.clone();

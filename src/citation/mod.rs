@@ -198,6 +198,8 @@ pub fn used(kind: Option<Kind>, files: &[toml::Table]) -> BTreeSet<String> {
             (has("engine", "axisymmetric"), "axisymmetric engine"),
             (has("engine", "half-space"), "half-space engine"),
             (has("edge", "periodic"), "surface that repeats itself"),
+            // The exact problem of a curve is solved on springs.
+            (table.contains_key("curve"), "axisymmetric engine"),
             (table.contains_key("layer"), "layer"),
             (table.contains_key("adhesion"), "adhesion"),
             (table.contains_key("measured_temperatures"), "master curve"),

@@ -10,10 +10,12 @@ use super::failure::{Ended, Failure};
 use super::flags::{OutFlags, named};
 use super::folders::{in_folder, write_result};
 use super::output::{OutputFormat, tell};
+use crate::identify::laws::Laws;
 use crate::identify::material_laws::of_table;
 use crate::identify::resolved::{LAWS, forms};
 use crate::input::dynamic::DynamicFormat;
 use crate::input::table_file;
+use crate::material::continuous::{self, Spectrum};
 use crate::material::dynamic::{MOST_BRANCHES, MOST_REPLICAS};
 use crate::material::fit;
 use crate::material::law::Form;
@@ -21,7 +23,7 @@ use crate::material::{Material, MaterialFunction, ModulusKind};
 use crate::quantity::{Dimension, parse};
 use crate::report::caption::Setting;
 use crate::report::dynamic::tables;
-use crate::report::laws;
+use crate::report::laws::{Beside, spectrum_csv};
 use crate::report::material::{fit_json, to_json};
 use crate::report::page::{self, material::About};
 use crate::report::text::Text;
@@ -53,6 +55,10 @@ pub(super) struct FitFlags {
     /// data choose
     #[arg(long, value_name = "auto|LAW,...", value_delimiter = ',', value_parser = law())]
     pub(super) law: Vec<&'static str>,
+    /// The continuous relaxation spectrum with its band (spectrum.csv and a figure); the block is then the series of it, five branches per
+    /// decade, without the ripple of a few
+    #[arg(long, conflicts_with = "law")]
+    pub(super) spectrum: bool,
     #[command(flatten)]
     pub(super) dynamic: DynamicFlags,
     #[command(flatten)]
@@ -149,10 +155,21 @@ fn law() -> impl TypedValueParser<Value = &'static str> {
 }
 
 impl FitFlags {
-    /// The laws that are asked for.
-    pub(super) fn forms(&self) -> Option<Vec<Form>> {
+    /// The laws or the spectrum that are asked for.
+    pub(super) fn beside(
+        &self,
+        laws: impl Fn(&[Form]) -> Option<Laws>,
+        spectrum: impl Fn() -> Option<Spectrum>,
+    ) -> Result<Option<Beside>, Failure> {
         let names: Vec<String> = self.law.iter().map(|law| (*law).to_owned()).collect();
-        (!names.is_empty()).then(|| forms(&names, None, 2))
+        let found = match (names.is_empty(), self.spectrum) {
+            (true, false) => return Ok(None),
+            (true, true) => spectrum().map(Beside::Spectrum),
+            (false, _) => laws(&forms(&names, None, 2)).map(Beside::Laws),
+        };
+        let found =
+            found.ok_or_else(|| Failure::run("none of the laws, or no spectrum, could be fitted"));
+        found.map(Some)
     }
 }
 
@@ -185,15 +202,15 @@ pub(super) fn run(
     let target = flags.to.target(Kind::MaterialFit, &flags.data)?;
     let table = table_file::read(data, function, flags.modulus)?;
     let fit = fit::fit(&table, flags.flow).map_err(Failure::input)?;
-    let laws = match flags.forms() {
-        Some(forms) => Some(of_table(&table, &fit, &forms).ok_or_else(no_law)?),
-        None => None,
-    };
+    let beside = flags.beside(
+        |forms| of_table(&table, &fit, forms),
+        || continuous::of_table(&table, &fit),
+    )?;
     let mut material = fit.material(poisson_ratio).map_err(Failure::input)?;
     let mut about_fit = report::fit::text(fit.report());
-    if let Some(laws) = &laws {
-        about_fit.append(laws::text(laws, flags.modulus));
-        if let Some(series) = laws::series_in_place(laws) {
+    if let Some(beside) = &beside {
+        about_fit.append(beside.lines(flags.modulus).into_iter().collect::<Text>());
+        if let Some(series) = beside.series_in_place() {
             let (kind, mut origin) = (flags.modulus, material.origin);
             (origin.fit, origin.alternatives) = (None, Vec::new());
             material =
@@ -201,17 +218,19 @@ pub(super) fn run(
             material.origin = origin;
         }
     }
+    let spectrum = beside.as_ref().and_then(Beside::spectrum);
     let block = block(data, &about_fit, &material);
     if let Some(target) = &target {
         let prony = material.relaxation().map(tables::prony);
         let files = [
             ("material.toml", Some(block.clone().into_bytes())),
             ("prony.csv", prony),
+            ("spectrum.csv", spectrum.map(spectrum_csv)),
         ];
         let files = files
             .into_iter()
             .filter_map(|(name, bytes)| Some((name, bytes?)));
-        let figures = figure::fit::figures(&table, &fit);
+        let figures = figure::fit::figures(&table, &fit, spectrum);
         let setting = Setting::of_material(&material);
         let drawn = (&figures[..], &setting, true);
         write_result(target, files, drawn, |pictures, figure| {
@@ -230,24 +249,17 @@ pub(super) fn run(
     let found = || {
         let mut value = to_json(&material).map_err(Failure::input)?;
         value["fit"] = fit_json(fit.report());
-        if let (Some(laws), Some(object)) = (&laws, value.as_object_mut()) {
-            object.extend(laws::summary(laws));
+        if let (Some(beside), Some(object)) = (&beside, value.as_object_mut()) {
+            object.extend(beside.summary());
         }
         Ok(value)
     };
-    let parameters = match &laws {
-        Some(laws) => laws::table(&laws::named(laws.best())).into(),
-        None => report::fit::branches(&fit),
-    };
+    let parameters = beside.as_ref().and_then(Beside::parameters);
+    let parameters = parameters.map_or_else(|| report::fit::branches(&fit), Into::into);
     let text = [about_fit.clone(), parameters];
     tell(format, false, found, || {
         Ok(fit_text(text, &block, target.as_ref()))
     })
-}
-
-/// Why there is no law.
-pub(super) fn no_law() -> Failure {
-    Failure::run("none of the laws could be fitted")
 }
 
 /// What is printed of a fit, and where its files are; where there are none, the block to paste.

@@ -4,15 +4,17 @@ use std::path::{Path, PathBuf};
 
 use super::failure::{Ended, Failure};
 use super::folders::write_result;
-use super::material_fit::{Branches, FitFlags, fit_text, no_law};
+use super::material_fit::{Branches, FitFlags, fit_text};
 use super::output::{OutputFormat, tell};
 use crate::identify::material_laws::of_moduli;
 use crate::input::dynamic;
+use crate::material::continuous;
 use crate::material::dynamic::master_curve::ShiftChoice;
 use crate::material::dynamic::{Choices, characterise};
 use crate::report::caption::Setting;
 use crate::report::dynamic::{DynamicReport, Source, summary};
-use crate::report::{figure, laws, page};
+use crate::report::laws::Beside;
+use crate::report::{figure, page};
 use crate::sweep::store::manifest::Kind;
 
 /// Runs the command.
@@ -38,13 +40,13 @@ pub(super) fn run(flags: &FitFlags, format: OutputFormat) -> Result<Ended, Failu
         source: &source,
         data: &file.data,
         made: &made,
-        laws: None,
+        beside: None,
     };
-    let laws = match flags.forms() {
-        Some(forms) => Some(of_moduli(&report.points(), &made.fit, &forms).ok_or_else(no_law)?),
-        None => None,
-    };
-    report.laws = laws.as_ref();
+    let beside = flags.beside(
+        |forms| of_moduli(&report.points(), &made.fit, forms),
+        || continuous::of_moduli(&report.points(), &made.fit),
+    )?;
+    report.beside = beside.as_ref();
     let block = report.block(flags.poisson_ratio).map_err(Failure::input)?;
     let shifting = report
         .shifting_block(flags.poisson_ratio)
@@ -61,10 +63,8 @@ pub(super) fn run(flags: &FitFlags, format: OutputFormat) -> Result<Ended, Failu
         )?;
     }
     let found = || Ok(summary::printed(&report, &block, shifting));
-    let parameters = match &laws {
-        Some(laws) => laws::table(&laws::named(laws.best())).into(),
-        None => report.branches(),
-    };
+    let parameters = beside.as_ref().and_then(Beside::parameters);
+    let parameters = parameters.map_or_else(|| report.branches(), Into::into);
     let text = [report.text(), report.shift_table(), parameters];
     tell(format, false, found, || {
         Ok(fit_text(text, &block, target.as_ref()))

@@ -10,12 +10,12 @@ pub(super) use text::{arrhenius, wlf};
 use std::borrow::Cow;
 
 use super::number::scientific;
-use crate::identify::laws::Laws;
 use crate::input::dynamic::DynamicFile;
+use crate::material::continuous::Spectrum;
 use crate::material::dynamic::{Characterisation, DynamicData, DynamicError, DynamicPoint};
 use crate::material::{Material, MaterialFunction, Relaxation};
 use crate::quantity::FrequencyUnit;
-use crate::report::laws::series_in_place;
+use crate::report::laws::{Beside, spectrum_csv};
 use crate::sweep::plan::resolved;
 
 /// Where dynamic data come from.
@@ -56,8 +56,8 @@ pub struct DynamicReport<'a> {
     pub source: &'a Source,
     pub data: &'a DynamicData,
     pub made: &'a Characterisation,
-    /// Laws beside the series, where they were asked for.
-    pub laws: Option<&'a Laws>,
+    /// Laws or a spectrum beside the series, where they were asked for.
+    pub beside: Option<&'a Beside>,
 }
 
 /// Inconsistent by more than this many times the noise, storage and loss modulus are warned of.
@@ -76,11 +76,17 @@ impl<'a> DynamicReport<'a> {
             ("shift.csv", master.map(tables::shift_factors)),
             ("master.csv", Some(tables::master_curve(self))),
             ("summary.json", Some(summary.into())),
+            ("spectrum.csv", self.spectrum().map(spectrum_csv)),
         ];
         let present = files.into_iter();
         present
             .filter_map(|(name, bytes)| Some((name, bytes?)))
             .collect()
+    }
+
+    /// The continuous spectrum, where it was asked for.
+    pub fn spectrum(&self) -> Option<&'a Spectrum> {
+        self.beside.and_then(Beside::spectrum)
     }
 
     /// The points that the series was fitted to, in the order of its residuals: on the master curve, or as measured.
@@ -174,7 +180,7 @@ impl DynamicReport<'_> {
         // Without a Poisson ratio there is none in the text either: the series does not depend on it.
         let nu = poisson_ratio.unwrap_or(0.0);
         let mut material = self.made.material(None, nu)?;
-        match self.laws.and_then(series_in_place) {
+        match self.beside.and_then(Beside::series_in_place) {
             Some(series) => {
                 let origin = material.origin;
                 material = Material::from_relaxation(series, self.made.kind, nu)?;
@@ -325,7 +331,7 @@ pub(crate) mod tests {
                 source: &source,
                 data: &data,
                 made,
-                laws: None,
+                beside: None,
             };
             report.warnings()
         };

@@ -3,9 +3,11 @@
 use serde_json::{Map, Value, json};
 
 use super::number::scientific;
-use super::text::{Column, Table, Text};
+use super::table::{cells, csv};
+use super::text::{Column, Table};
 use super::words::listed;
 use crate::identify::laws::{Estimate, FittedLaw, Laws};
+use crate::material::continuous::Spectrum;
 use crate::material::law::{Form, Law, Scale};
 use crate::material::{MaterialFunction, ModulusKind, Relaxation};
 use crate::quantity::{Dimension, format_human};
@@ -101,20 +103,99 @@ pub fn laws_in_words(laws: &Laws, what: &str, symbol: char) -> [String; 2] {
     [chosen, format!("{symbol}{formula}, {modulus}.")]
 }
 
-/// The same of data to which a series was fitted, of a modulus of this kind.
-pub fn text(laws: &Laws, kind: ModulusKind) -> Text {
-    let symbol = MaterialFunction::Relaxation.symbol(kind);
-    laws_in_words(laws, "what was measured", symbol)
-        .into_iter()
-        .collect()
+/// What a fit of a material has beside its series, in whose place it is.
+#[derive(Debug, Clone)]
+pub enum Beside {
+    Laws(Laws),
+    Spectrum(Spectrum),
 }
 
-/// The series of a law that is more likely than the series that was fitted before; `None` where that is as good.
-pub fn series_in_place(laws: &Laws) -> Option<Relaxation> {
-    match laws.best().form.law {
-        Law::Series => None,
-        _ => laws.series(),
+impl Beside {
+    /// What it is, one fact a line, of a modulus of this kind.
+    pub fn lines(&self, kind: ModulusKind) -> Vec<String> {
+        let symbol = MaterialFunction::Relaxation.symbol(kind);
+        match self {
+            Self::Laws(laws) => laws_in_words(laws, "what was measured", symbol).to_vec(),
+            Self::Spectrum(spectrum) => {
+                let count = spectrum.points.len();
+                let mean_square = scientific(spectrum.mean_square, 2);
+                let mut lines = vec![format!(
+                    "Continuous spectrum: {count} times, five per decade, each a branch of the block; chi squared over the number of data \
+                     {mean_square}."
+                )];
+                let (from, to) = spectrum.window_s;
+                let [from, to] = [from, to].map(|t| format_human(t, Dimension::Time, 3));
+                lines.push(format!(
+                    "The data tell of the spectrum from \u{3c4} = {from} to {to}; outside, it is an extrapolation."
+                ));
+                lines
+            }
+        }
     }
+
+    /// The series in place of the one that was fitted before; `None` where that is as good.
+    pub fn series_in_place(&self) -> Option<Relaxation> {
+        match self {
+            Self::Laws(laws) if laws.best().form.law == Law::Series => None,
+            Self::Laws(laws) => laws.series(),
+            Self::Spectrum(spectrum) => spectrum.series().ok(),
+        }
+    }
+
+    /// Parameters with their intervals, where there are any.
+    pub fn parameters(&self) -> Option<Table> {
+        match self {
+            Self::Laws(laws) => Some(table(&named(laws.best()))),
+            Self::Spectrum(_) => None,
+        }
+    }
+
+    /// What the summary says of it.
+    pub fn summary(&self) -> Map<String, Value> {
+        match self {
+            Self::Laws(laws) => summary(laws),
+            Self::Spectrum(spectrum) => {
+                let value = json!({
+                    "points": spectrum.points.len(),
+                    "equilibrium_modulus_pa": spectrum.equilibrium_pa,
+                    "window_s": spectrum.window_s,
+                    "mean_square": spectrum.mean_square,
+                });
+                [("spectrum".to_owned(), value)].into_iter().collect()
+            }
+        }
+    }
+
+    /// The spectrum, where it is one.
+    pub fn spectrum(&self) -> Option<&Spectrum> {
+        match self {
+            Self::Laws(_) => None,
+            Self::Spectrum(spectrum) => Some(spectrum),
+        }
+    }
+}
+
+/// `spectrum.csv`: the continuous spectrum with its band.
+pub fn spectrum_csv(spectrum: &Spectrum) -> Vec<u8> {
+    let columns = [
+        "time_s",
+        "spectrum_pa",
+        "spectrum_low_pa",
+        "spectrum_high_pa",
+        "extrapolated",
+    ];
+    let (first, last) = spectrum.window_s;
+    let is_outside = |t: f64| t < first || t > last;
+    let rows = spectrum.points.iter().map(|p| {
+        cells![
+            p.time_s,
+            p.spectrum_pa,
+            p.low_pa,
+            p.high_pa,
+            is_outside(p.time_s).to_string()
+        ]
+    });
+    csv(&columns, rows)
 }
 
 /// The interval of a number as an object.

@@ -107,7 +107,7 @@ fn of_commands() -> Pictures {
     let place = folders::inputs();
     let isotherms = root().join("sweeps/pyvisco-freq-user-raw.csv");
     let isotherms = format!(
-        "material fit {} --quantity dynamic --modulus longitudinal --poisson-ratio 0.35",
+        "material fit {} --quantity dynamic --modulus longitudinal --poisson-ratio 0.35 --spectrum",
         isotherms.display()
     );
     let commands = [
@@ -116,7 +116,7 @@ fn of_commands() -> Pictures {
         ("material", "material show pmma"),
         (
             "creep",
-            "material fit creep.csv --quantity creep --modulus longitudinal --poisson-ratio 0.4",
+            "material fit creep.csv --quantity creep --modulus longitudinal --poisson-ratio 0.4 --spectrum",
         ),
         ("isotherms", &isotherms),
         ("compare", "compare swept swept"),

@@ -10,6 +10,7 @@ use contact_dma::contact::Prescribed;
 use contact_dma::history::{DirectMemory, Hereditary, March, Memory, TimeRule};
 use contact_dma::material::MaterialFunction;
 use contact_dma::material::fit::fit as fit_of;
+use contact_dma::material::law::{Form, Law};
 use contact_dma::material::tabulated::Tabulated;
 use contact_dma::prelude::*;
 use contact_dma::reference::transient::step_load_contact_radius_m;
@@ -552,4 +553,80 @@ fn shift_factors_that_were_given_have_no_errors_and_without_a_poisson_ratio_the_
     assert!(!block.contains("\npoisson_ratio"), "{block}");
     let errors = place.table("out/shift.csv").found("log10_a_t_error");
     assert!(errors.iter().all(Option::is_none));
+}
+
+/// A sweep of a material under a sphere at frequencies that its data cover, under an approach, since the contact under a load depends on
+/// what the body is at rest: its losses (J).
+fn losses_j(place: &Place, name: &str, block: &str) -> Vec<f64> {
+    let sweep = "[indenter]\nshape = \"sphere\"\nradius = \"5 mm\"\n[drive]\ncontrol = \"approach\"\nmean = \"20 um\"\n\
+                 amplitude = \"0.2 um\"\n[sweep]\nangular_frequency = { from = \"0.05 rad/s\", to = \"50 rad/s\", points = 9 }\n";
+    place.put(
+        &format!("{name}.toml"),
+        format!("title = \"{name}\"\n{block}{sweep}"),
+    );
+    place.done(&format!(
+        "sweep {name}.toml --quiet --no-figures --force --out {name}"
+    ));
+    place
+        .table(&format!("{name}/sweep.csv"))
+        .numbers("energy_loss_j")
+}
+
+#[test]
+fn the_spectrum_and_the_law_of_a_broad_body_lose_as_it_does() {
+    let truth = "[material]\npoisson_ratio = 0.4\n[material.fractional]\nmodel = \"zener\"\nmodulus = \"longitudinal\"\n\
+                 equilibrium = \"5 MPa\"\nstiffness = \"100 MPa\"\ntime = \"0.5 s\"\nexponent = 0.4\nband = [\"1e-4 rad/s\", \"1e5 rad/s\"]\n";
+    let form = Form {
+        law: Law::FractionalZener,
+        branches: 1,
+    };
+    let mut random = Random(8);
+    let rows = log_spaced(1e-2, 1e2, 33).into_iter().map(|omega| {
+        let modulus = form
+            .complex_modulus_pa(&[5e6, 1e8, 0.5, 0.4], omega)
+            .unwrap();
+        let noisy = |value: f64, random: &mut Random| value * (1.0 + 0.01 * random.normal());
+        let storage = noisy(modulus.re, &mut random);
+        format!(
+            "{omega:e},{storage:e},{:e}\n",
+            noisy(modulus.im, &mut random)
+        )
+    });
+    let place = Place::new();
+    let head = "angular_frequency [rad/s],E' [Pa],E'' [Pa]\n";
+    place.put("dma.csv", head.to_owned() + &rows.collect::<String>());
+    let exact = losses_j(&place, "truth", truth);
+    for (asked, told) in [
+        ("--spectrum", "Continuous spectrum"),
+        ("--law auto", "Law: fractional-zener"),
+    ] {
+        let run = place.done(&format!(
+            "{FIT_DYNAMIC} --poisson-ratio 0.4 {asked} --out fitted --force"
+        ));
+        says(&run.stdout, &[told]);
+        let found = losses_j(&place, "found", &place.text("fitted/material.toml"));
+        for (found, exact) in found.iter().zip(&exact) {
+            near!(*found, *exact, 0.03, "{asked}");
+        }
+    }
+    assert_eq!(place.json("fitted/summary.json")["law"], "fractional-zener");
+    place.done(&format!(
+        "{FIT_DYNAMIC} --poisson-ratio 0.4 --spectrum --out fitted --force"
+    ));
+    let spectrum = place.table("fitted/spectrum.csv");
+    let inside = (0..spectrum.len()).filter(|row| {
+        let [low, high] = spectrum.row(*row, ["spectrum_low_pa", "spectrum_high_pa"]);
+        // H of the law at its time, in closed form.
+        let x = (spectrum.number(*row, "time_s") / 0.5).powf(0.4);
+        let angle = 0.4 * std::f64::consts::PI;
+        let exact =
+            1e8 / std::f64::consts::PI * x * angle.sin() / (1.0 + x * x + 2.0 * x * angle.cos());
+        (low..=high).contains(&exact)
+    });
+    let inside = inside.count();
+    assert!(
+        10 * inside >= 9 * spectrum.len(),
+        "{inside} of {}",
+        spectrum.len()
+    );
 }

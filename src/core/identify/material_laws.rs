@@ -6,7 +6,7 @@ use nalgebra::DVector;
 use super::laws::{Laws, Numbers, fitted};
 use crate::material::dynamic::DynamicPoint;
 use crate::material::dynamic::prony::PronyFit;
-use crate::material::fit::{Fit, FittedSeries};
+use crate::material::fit::Fit;
 use crate::material::law::{Form, Law, Solid};
 use crate::material::tabulated::Tabulated;
 use crate::material::{MaterialFunction, Relaxation};
@@ -51,10 +51,7 @@ pub fn of_moduli(points: &[DynamicPoint], fit: &PronyFit, forms: &[Form]) -> Opt
 
 /// The laws of a table to which a series was fitted; `None` where none could be fitted.
 pub fn of_table(table: &Tabulated, fit: &Fit, forms: &[Form]) -> Option<Laws> {
-    let own = match fit.series() {
-        FittedSeries::Relaxation(series) => series.clone(),
-        FittedSeries::Creep(creep) => creep.to_relaxation().ok()?,
-    };
+    let own = fit.relaxation()?;
     let all = table.times_s().iter().zip(table.values());
     let samples: Vec<(f64, f64)> = all
         .map(|(t, value)| (*t, *value))

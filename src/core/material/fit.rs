@@ -448,6 +448,14 @@ impl Fit {
         &self.series
     }
 
+    /// As a relaxation; `None` where that cannot be computed.
+    pub fn relaxation(&self) -> Option<Relaxation> {
+        match &self.series {
+            FittedSeries::Relaxation(series) => Some(series.clone()),
+            FittedSeries::Creep(creep) => creep.to_relaxation().ok(),
+        }
+    }
+
     /// How well it fits, and what was assumed.
     pub fn report(&self) -> &FitReport {
         &self.report

@@ -32,6 +32,7 @@
 
 pub mod classical;
 pub mod compressibility;
+pub mod continuous;
 pub mod dynamic;
 pub mod export;
 pub mod fit;

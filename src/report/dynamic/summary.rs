@@ -5,7 +5,6 @@ use serde_json::{Value, json};
 use super::DynamicReport;
 use super::tables::celsius;
 use crate::material::dynamic::shift_law::{Arrhenius, ShiftLaw, Wlf};
-use crate::report::laws;
 
 /// The summary as an object; what is undefined is null.
 pub fn summary(report: &DynamicReport<'_>) -> Value {
@@ -13,7 +12,7 @@ pub fn summary(report: &DynamicReport<'_>) -> Value {
         source,
         data,
         made,
-        laws,
+        beside,
     } = report;
     let (master, fit) = (made.master.as_ref(), &made.fit);
     let preferred = master.and_then(|m| m.preferred).map(|law| match law {
@@ -48,8 +47,8 @@ pub fn summary(report: &DynamicReport<'_>) -> Value {
         "program": env!("CARGO_PKG_NAME"),
         "program_version": env!("CARGO_PKG_VERSION"),
     });
-    if let (Some(laws), Some(object)) = (laws, summary.as_object_mut()) {
-        object.extend(laws::summary(laws));
+    if let (Some(beside), Some(object)) = (beside, summary.as_object_mut()) {
+        object.extend(beside.summary());
     }
     summary
 }
@@ -108,7 +107,7 @@ mod tests {
                 source: &source,
                 data: &data,
                 made,
-                laws: None,
+                beside: None,
             })
         };
         let all = report(&made);

@@ -91,7 +91,7 @@ mod tests {
             source: &source,
             data: &data,
             made: &made,
-            laws: None,
+            beside: None,
         });
         let table = String::from_utf8(table).unwrap();
         assert_eq!(table.lines().count(), 1 + points);

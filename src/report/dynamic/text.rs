@@ -6,7 +6,6 @@ use crate::material::dynamic::master_curve::MasterCurve;
 use crate::material::dynamic::shift_law::{Arrhenius, ShiftLaw, Wlf};
 use crate::quantity::{celsius, format_human};
 use crate::report::fit::relaxation_branches;
-use crate::report::laws::laws_in_words;
 use crate::report::number::{four_digits, scientific};
 use crate::report::text::{Column, Table, Text};
 use crate::report::words::listed;
@@ -25,10 +24,8 @@ impl DynamicReport<'_> {
         lines.extend(notes);
         lines.extend(self.made.master.iter().flat_map(laws));
         lines.extend(self.quality());
-        let laws = self
-            .laws
-            .map(|laws| laws_in_words(laws, "what was measured", self.symbol()));
-        lines.extend(laws.into_iter().flatten());
+        let beside = self.beside.map(|beside| beside.lines(self.made.kind));
+        lines.extend(beside.into_iter().flatten());
         lines.extend(warnings.map(|warning| format!("Warning: {warning}.")));
         lines
     }
@@ -221,7 +218,7 @@ mod tests {
             source: &source,
             data: &data,
             made: &made,
-            laws: None,
+            beside: None,
         };
         let text = format!(
             "{}{}{}",

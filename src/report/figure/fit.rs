@@ -1,11 +1,13 @@
 //! Data against the series fitted to them, and the relative difference between the two.
 
 use super::Figure;
+use super::dynamic::spectrum::continuous;
 use super::plot::Plot;
 use super::quantity::{Quantity, RESIDUAL, Spread, TIME};
 use super::trace::Trace;
 use super::units::{Measure, Units};
 use crate::material::MaterialFunction;
+use crate::material::continuous::Spectrum;
 use crate::material::fit::Fit;
 use crate::material::tabulated::Tabulated;
 use crate::report::caption::Caption;
@@ -17,9 +19,12 @@ const CURVE: usize = 400;
 const SYMBOLS_ON_CURVE: usize = 50;
 const SYMBOLS: usize = 2000;
 
-/// Two figures, `fit` and `fit-residual`. A sample at time zero has no place on their logarithmic axis; it is in the data.
-pub fn figures(table: &Tabulated, fit: &Fit) -> Vec<Figure> {
-    vec![curves(table, fit), residual(table, fit)]
+/// Two figures, `fit` and `fit-residual`, and the continuous spectrum where there is one. A sample at time zero has no place on their logarithmic axis; it is in the data.
+pub fn figures(table: &Tabulated, fit: &Fit, spectrum: Option<&Spectrum>) -> Vec<Figure> {
+    let symbol = MaterialFunction::Relaxation.symbol(table.kind());
+    let spectrum = spectrum.map(|spectrum| continuous(spectrum, symbol));
+    let figures = [curves(table, fit), residual(table, fit)];
+    figures.into_iter().chain(spectrum).collect()
 }
 
 /// Samples at positive times; where there are more than `most`, as many at about equal distances in the logarithm of time.

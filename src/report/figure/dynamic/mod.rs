@@ -5,7 +5,7 @@ mod isotherms;
 mod master_curve;
 mod residuals;
 mod shift_factors;
-mod spectrum;
+pub(super) mod spectrum;
 mod van_gurp_palmen;
 
 use num_complex::Complex;
@@ -30,6 +30,9 @@ pub fn figures(report: &DynamicReport<'_>) -> Vec<Figure> {
         isotherms::figure(report),
         shift_factors::figure(report),
         Some(spectrum::figure(report)),
+        report
+            .spectrum()
+            .map(|of| spectrum::continuous(of, report.symbol())),
         Some(van_gurp_palmen::figure(report)),
     ];
     of_all.into_iter().flatten().collect()
@@ -199,7 +202,7 @@ mod tests {
                 source: &source,
                 data: &data,
                 made,
-                laws: None,
+                beside: None,
             };
             let figures = figures(&report);
             for figure in &figures {

@@ -1,14 +1,17 @@
 //! The branches of the fitted series: modulus over relaxation time.
 
 use super::{caption, units};
+use crate::material::continuous::Spectrum;
 use crate::quantity::{Dimension, format_human};
+use crate::report::caption::Caption;
 use crate::report::chart::Mark;
 use crate::report::dynamic::DynamicReport;
 use crate::report::figure::Figure;
 use crate::report::figure::plot::Plot;
 use crate::report::figure::quantity::{MODULUS, Quantity, Spread};
 use crate::report::figure::trace::{Point, Trace};
-use crate::report::figure::units::Measure;
+use crate::report::figure::units::{Measure, Units};
+use crate::report::laws::spectrum_csv;
 use crate::report::number::range;
 
 const RELAXATION_TIME: Quantity =
@@ -48,4 +51,38 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
     let caption = caption(report, "Relaxation spectrum: modulus of each branch of the series over its relaxation time τ")
         .say("Dashed: equilibrium modulus, and the reciprocals of the lowest and highest frequency of the data; times outside are not resolved.");
     Figure::of("spectrum", &[plot], caption, &units(report)).without_data()
+}
+
+/// A continuous spectrum with its band, of a modulus of this symbol.
+pub(in crate::report::figure) fn continuous(spectrum: &Spectrum, symbol: char) -> Figure {
+    /// What is not determined fills the frame, not the axis.
+    const WIDE: f64 = 30.0;
+    let largest = spectrum
+        .points
+        .iter()
+        .map(|p| p.spectrum_pa)
+        .fold(0.0, f64::max);
+    let shown = spectrum
+        .points
+        .iter()
+        .filter(|p| p.spectrum_pa > 1e-4 * largest);
+    let points = shown.map(|p| {
+        let open = (p.high_pa / p.spectrum_pa).min(WIDE);
+        let band = (p.spectrum_pa / open, p.spectrum_pa * open);
+        Point::new(p.time_s, p.spectrum_pa).band(Some(band))
+    });
+    let (first_s, last_s) = spectrum.window_s;
+    let height = MODULUS.called(format!("relaxation spectrum H of {symbol}"));
+    let plot = Plot::new(RELAXATION_TIME, height)
+        .traces([Trace::line(points)])
+        .marks([
+            Mark::vertical(first_s, "first measured"),
+            Mark::vertical(last_s, "last measured"),
+        ]);
+    let caption = Caption::new(format!(
+        "Continuous relaxation spectrum: {symbol}(t) = {symbol}\u{221e} + \u{222b} H exp(-t/\u{3c4}) d ln \u{3c4}"
+    ))
+    .say("Shaded: 95 % band, drawn up to a factor of thirty; outside the dashed lines the spectrum is an extrapolation.");
+    Figure::of("continuous-spectrum", &[plot], caption, &Units::default())
+        .with_data(spectrum_csv(spectrum))
 }
