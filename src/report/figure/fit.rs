@@ -165,7 +165,7 @@ mod tests {
         assert!(symbols.len() <= SYMBOLS_ON_CURVE && symbols.len() > 30);
         assert_eq!(symbols[0].0, 0.5);
         assert_eq!(symbols.last().unwrap().0, 1000.0);
-        let figures = figures(&table, &fit(&table, None).unwrap());
+        let figures = figures(&table, &fit(&table, None).unwrap(), None);
         let label = chart_of(&figures[0]).series[0].label.clone().unwrap();
         assert!(label.starts_with("data (") && label.contains("of 2001 samples"));
         let few = table_figures(20);
@@ -178,7 +178,7 @@ mod tests {
 
     fn table_figures(count: i32) -> Vec<Figure> {
         let table = table(count);
-        figures(&table, &fit(&table, None).unwrap())
+        figures(&table, &fit(&table, None).unwrap(), None)
     }
 
     #[test]
