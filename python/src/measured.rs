@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
-use contact_dma::force_curve::fit_all;
+use contact_dma::force_curve::{Kept, fit_all};
 use contact_dma::identify::{IdentifyError, curves, identify};
 use contact_dma::input::diagnostic::Diagnostics;
 use contact_dma::input::document::Document;
@@ -265,7 +265,7 @@ pub fn identify_material<'py>(
             }))
         }
         Asked::Curves(plan) => {
-            let fits = fit_all(plan, &job.interrupt, &|| {})?;
+            let fits = fit_all(plan, &Kept::default(), &job.interrupt, &|| {})?;
             Ok(Identification::of_curves(&CurvesReport::new(plan, &fits)))
         }
     })?;

@@ -1,6 +1,6 @@
 //! `contact-dma identify`: from measured cycles to a material.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::Args;
@@ -8,11 +8,11 @@ use clap::Args;
 use super::failure::{Ended, Failure};
 use super::flags::RunFlags;
 use super::folders::{folder_of, in_folder, write_kept};
-use super::output::{OutputFormat, tell};
+use super::output::{OutputFormat, tell, warn};
 use super::progress::bar;
 use super::{interruption, meant_for};
-use crate::force_curve::fit_all;
 use crate::force_curve::resolved::CurvesPlan;
+use crate::force_curve::{Kept, fit_all};
 use crate::identify::{IdentifyError, IdentifyPlan, curves, identify};
 use crate::input::given::Given;
 use crate::input::identify_file::{self, Asked};
@@ -53,6 +53,7 @@ pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, 
     target.check()?;
     let interrupt = interruption::keep_finished();
     let pool = run::pool(flags.work.threads()).map_err(Failure::run)?;
+    let mut finished = None;
     let (title, made) = match &asked {
         Asked::Driven(plan) => (&plan.title, pool.install(|| of_series(plan, &interrupt))),
         Asked::Curves(plan) => {
@@ -61,8 +62,21 @@ pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, 
                 "{wide_bar} {pos}/{len} curves, {eta} left",
                 flags.work.quiet || plan.curves.len() == 1,
             );
-            let made = pool.install(|| of_curves(plan, &interrupt, &|| bar.inc(1)));
+            let path = unfinished(target.folder);
+            let kept = match plan.curves.len() {
+                1 => Kept::default(),
+                _ => Kept::in_file(&path).unwrap_or_default(),
+            };
+            let made = pool.install(|| of_curves(plan, &kept, &interrupt, &|| bar.inc(1)));
             bar.finish_and_clear();
+            if interrupt.load(Ordering::Relaxed) && path.exists() {
+                warn(&format!(
+                    "curves that are done are kept in {}: the same command goes on",
+                    path.display()
+                ));
+            } else {
+                finished = Some(kept);
+            }
             (&plan.title, made)
         }
     };
@@ -73,6 +87,9 @@ pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, 
         Ok(made) => made.map_err(Failure::run)?,
     };
     write_kept(&target, made.files, made.figures, !flags.no_figures)?;
+    if let Some(kept) = finished {
+        kept.done();
+    }
     let missing = made.missing;
     tell(
         format,
@@ -104,8 +121,20 @@ fn of_series(plan: &IdentifyPlan, interrupt: &AtomicBool) -> Made {
     }))
 }
 
-fn of_curves(plan: &CurvesPlan, interrupt: &AtomicBool, done: &(dyn Fn() + Sync)) -> Made {
-    let fits = fit_all(plan, interrupt, done)?;
+/// Where the laws of curves that are done are kept until all are.
+fn unfinished(folder: &Path) -> PathBuf {
+    let mut name = folder.file_name().unwrap_or_default().to_owned();
+    name.push(".unfinished.jsonl");
+    folder.with_file_name(name)
+}
+
+fn of_curves(
+    plan: &CurvesPlan,
+    kept: &Kept,
+    interrupt: &AtomicBool,
+    done: &(dyn Fn() + Sync),
+) -> Made {
+    let fits = fit_all(plan, kept, interrupt, done)?;
     Ok(Identification::of_curves(&CurvesReport::new(plan, &fits)))
 }
 

@@ -92,6 +92,16 @@ fn curves_plan(
             .help("give a sphere, a cone, a flat punch or a power law");
         return None;
     }
+    if let (Some(probe), Some(indenter), Some(place)) =
+        (&probe, &indenter, root.key_location(&PROBE))
+        && probe.radius_uncertainty > 0.0
+        && !["sphere", "flat-punch"].contains(&indenter.shape())
+    {
+        let message = format!("`radius_uncertainty` of a {}", indenter.shape());
+        let report = problems.at(&place, message);
+        report.help("leave it out: it is for spheres and flat punches");
+        return None;
+    }
     let (folder, branches) = (table.folder(), table.value(&IDENTIFY_BRANCHES));
     let files: Option<Located<Vec<String>>> = table.read(&CURVE);
     let places = table.places_in(CURVE.name);
@@ -119,10 +129,9 @@ fn curves_plan(
             compressibility: compressibility?,
             indenter_material: bodies?.indenter_material,
             forms: forms(&laws, branches, MOST_CHOSEN),
-            drag_n_s_per_m: probe.drag_n_s_per_m,
+            probe,
             samples: samples?,
         },
-        probe,
         laws,
         branches,
         files: names,

@@ -3,6 +3,7 @@
 //!
 //! `CURVES=100 SEED=9 cargo test --release --test physics force_curves -- --nocapture` tries as many as the guide on validation quotes.
 
+use contact_dma::force_curve::resolved::Probe;
 use contact_dma::force_curve::{CurveFit, CurvePlan, ForceCurve, fit};
 use contact_dma::identify::laws::Estimate;
 use contact_dma::material::fractional::Fractional;
@@ -209,7 +210,7 @@ fn judge(kind: &str, body: fn(&mut Random, &Motion) -> (Truth, Material)) -> Vec
             compressibility: 0.5.into(),
             indenter_material: None,
             forms: Form::all(4),
-            drag_n_s_per_m: None,
+            probe: Probe::default(),
             samples: 0,
         };
         let found = fit(&plan, &made.curve, &AtomicBool::new(false)).unwrap();
@@ -277,7 +278,7 @@ fn a_curve_without_noise_gives_the_solid_back() {
         compressibility: 0.5.into(),
         indenter_material: None,
         forms: Form::all(1),
-        drag_n_s_per_m: None,
+        probe: Probe::default(),
         samples: 0,
     };
     let found = fit(&plan, &made.curve, &AtomicBool::new(false)).unwrap();

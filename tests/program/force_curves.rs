@@ -356,3 +356,103 @@ fn a_file_of_an_instrument_that_is_cut_short_is_refused_and_nothing_panics() {
         }
     }
 }
+
+#[test]
+fn curves_that_were_done_before_an_interruption_are_kept_and_the_result_is_the_same() {
+    use std::process::{Command, Stdio};
+    let place = Place::new();
+    place.put("gel.toml", GEL);
+    place.done("simulate gel.toml --quiet --out gel");
+    let rows = measured(&place, "gel");
+    let mut text = "curve,time_s,force_n,indentation_m\n".to_owned();
+    for curve in 1..=24 {
+        for [t, force_n, depth_m] in &rows {
+            text += &format!("{curve},{t},{:e},{depth_m:e}\n", force_n * f64::from(curve));
+        }
+    }
+    place.put("map.csv", text);
+    place.put("map.toml", IDENTIFY.replace("CURVE", "map.csv"));
+    let kept = place.path("map.unfinished.jsonl");
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin("contact-dma"));
+    command.current_dir(place.path(""));
+    command.args([
+        "identify",
+        "map.toml",
+        "--quiet",
+        "--threads",
+        "1",
+        "--out",
+        "map",
+    ]);
+    let mut child = command.stderr(Stdio::null()).spawn().unwrap();
+    let lines = || fs::read_to_string(&kept).map_or(0, |text| text.lines().count());
+    while lines() < 3 && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    let sent = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(sent.unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(!place.has("map/summary.json"));
+    let before = lines();
+    assert!((3..24).contains(&before), "{before}");
+    // A line that was being written is no obstacle.
+    let torn = fs::read_to_string(&kept).unwrap() + "{\"of\": \"12";
+    fs::write(&kept, torn).unwrap();
+    place.done("identify map.toml --quiet --out map");
+    assert!(!kept.exists());
+    place.done("identify map.toml --quiet --out fresh");
+    for file in ["summary.json", "curves.csv", "fit.csv"] {
+        assert_eq!(
+            place.bytes(&format!("map/{file}")),
+            place.bytes(&format!("fresh/{file}")),
+            "{file}"
+        );
+    }
+}
+
+#[test]
+fn what_is_uncertain_of_the_instrument_is_in_the_intervals() {
+    let place = Place::new();
+    place.put("gel.toml", GEL);
+    place.done("simulate gel.toml --quiet --out gel");
+    let rows = measured(&place, "gel");
+    place.put("a.csv", table(CURVE, &rows, |row| *row));
+    let with_errors = rows
+        .iter()
+        .map(|[t, f, d]| format!("{t},{f:e},1e-11,{d:e}\n"));
+    let header = "time_s,force_n,force_error_n,indentation_m\n";
+    place.put(
+        "b.csv",
+        header.to_owned() + &with_errors.collect::<String>(),
+    );
+    let width = |curve: &str, instrument: &str| {
+        let file = IDENTIFY.replace("CURVE", curve);
+        let file = file.replace(
+            "[material]",
+            &format!("law = \"power-law\"\n[instrument]\n{instrument}\n[material]"),
+        );
+        place.put("one.toml", file);
+        place.done("identify one.toml --quiet --force --out one");
+        let found = place.json("one/summary.json");
+        let modulus = &found["parameters"]["modulus_pa"];
+        let end = |name: &str| modulus[name].as_f64().unwrap();
+        (
+            (end("high") / end("low")).ln() / 2.0,
+            found["noise_n"].as_f64().unwrap(),
+        )
+    };
+    let (own, noise_n) = width("a.csv", "");
+    near!(noise_n, 5e-12, 0.1);
+    // 5 % of the spring constant, and 4 % of the radius of a sphere, whose force goes with the root of it: 1.96 standard deviations.
+    let (uncertain, _) = width(
+        "a.csv",
+        "spring_constant_uncertainty = 0.05\nradius_uncertainty = 0.04",
+    );
+    near!(uncertain, own.hypot(1.96 * 0.05_f64.hypot(0.02)), 0.01);
+    // Errors that are given take the place of the noise that neighbours tell.
+    let (doubled, given_n) = width("b.csv", "");
+    near!(given_n, 1e-11, 1e-9);
+    near!(doubled / own, 1e-11 / noise_n, 0.02);
+}

@@ -5,7 +5,7 @@ use crate::prelude::*;
 use std::fmt::Display;
 
 use crate::input_keys::assert_current;
-use contact_dma::force_curve::fit_all;
+use contact_dma::force_curve::{Kept, fit_all};
 use contact_dma::identify;
 use contact_dma::input::diagnostic::{Diagnostics, Styling};
 use contact_dma::input::given::Given;
@@ -34,7 +34,7 @@ const KINDS: [(&str, &str, Read); 6] = [
         let never = AtomicBool::new(false);
         let identified = match &asked {
             Asked::Driven(plan) => identify::identify(plan, &never).map(drop),
-            Asked::Curves(plan) => fit_all(plan, &never, &|| {}).map(drop),
+            Asked::Curves(plan) => fit_all(plan, &Kept::default(), &never, &|| {}).map(drop),
         };
         identified.map_err(|why| line(format!("{}: {why}", file.display())))
     }),

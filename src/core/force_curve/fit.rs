@@ -6,8 +6,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::prelude::*;
 
 use super::found::{CurveFit, Solved};
+use super::kept::Known;
 use super::problem::Fitted;
 use super::record::ForceCurve;
+use super::resolved::Probe;
 use super::springs::Springs;
 use super::touch::{contact_times, largest, pulled_from, touch};
 use crate::engine::body_of_revolution;
@@ -24,8 +26,7 @@ pub struct CurvePlan {
     pub indenter_material: Option<Material>,
     /// The laws that are tried.
     pub forms: Vec<Form>,
-    /// The drag on the probe, where it is known.
-    pub drag_n_s_per_m: Option<f64>,
+    pub probe: Probe,
     /// How often the curve is fitted again with its noise drawn anew.
     pub samples: usize,
 }
@@ -93,6 +94,16 @@ pub fn fit(
     curve: &ForceCurve,
     interrupt: &AtomicBool,
 ) -> Result<CurveFit, CurveError> {
+    fit_knowing(plan, curve, None, interrupt)
+}
+
+/// The same where the laws may be known.
+pub(super) fn fit_knowing(
+    plan: &CurvePlan,
+    curve: &ForceCurve,
+    known: Option<&Known>,
+    interrupt: &AtomicBool,
+) -> Result<CurveFit, CurveError> {
     let count = curve.time_s.len();
     if count < FEWEST {
         return Err(CurveError::TooFew(count));
@@ -100,7 +111,7 @@ pub fn fit(
     let profile = body_of_revolution(plan.indenter.as_ref())
         .map_err(|error| CurveError::Shape(error.to_string()))?;
     let mut points = curve.points();
-    if let Some(drag) = plan.drag_n_s_per_m {
+    if let Some(drag) = plan.probe.drag_n_s_per_m {
         for (force_n, speed) in points.force_n.iter_mut().zip(&points.speed_m_per_s) {
             *force_n -= drag * speed;
         }
@@ -124,7 +135,14 @@ pub fn fit(
     let modulus_pa = touch.modulus_pa * (1.0 - nu * nu);
     let began = (modulus_pa, window_s, touch.contact_point_m);
     let forms = plan.forms.par_iter();
-    let found = forms.filter_map(|form| Some((*form, fitted.best(*form, began)?)));
+    let solved = |form: Form| match known {
+        None => fitted.best(form, began),
+        Some(known) => {
+            let (_, unknowns) = known.iter().find(|(own, _)| *own == form)?;
+            fitted.at(form, unknowns)
+        }
+    };
+    let found = forms.filter_map(|form| Some((*form, solved(*form)?)));
     let found: Vec<Solved> = found.collect();
     match interrupt.load(Ordering::Relaxed) {
         true => Err(CurveError::Interrupted),

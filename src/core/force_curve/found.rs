@@ -78,6 +78,7 @@ impl Fitted<'_> {
                 unknowns: solution.unknowns.clone(),
                 squares: solution.squares(),
                 derivatives: DMatrix::from_columns(&columns),
+                in_common: self.in_common(*form, &solution.unknowns)?,
             })
         });
         let numbers = Numbers {
@@ -117,6 +118,20 @@ impl Fitted<'_> {
             ensemble: Vec::new(),
             laws,
         })
+    }
+
+    /// What the uncertainties of spring constant and radius change in the residuals, at one standard deviation.
+    fn in_common(&self, form: Form, unknowns: &[f64]) -> Option<Vec<f64>> {
+        let scale = (self.plan.probe).scale_uncertainty(self.plan.indenter.as_ref());
+        if scale == 0.0 {
+            return Some(Vec::new());
+        }
+        let response = self.response(form, unknowns)?;
+        let all = response.iter().zip(&self.sigma_n);
+        Some(
+            all.map(|(force_n, sigma_n)| scale * force_n / sigma_n)
+                .collect(),
+        )
     }
 
     /// A parametric bootstrap (B. Efron, R. J. Tibshirani, *An Introduction to the Bootstrap*, Chapman & Hall 1993, section 6.5): the computed

@@ -17,6 +17,7 @@
 
 mod fit;
 mod found;
+mod kept;
 mod problem;
 pub mod record;
 pub mod resolved;
@@ -30,24 +31,29 @@ use rayon::prelude::*;
 
 pub use fit::{CurveError, CurvePlan, fit};
 pub use found::{CurveFit, Drawn};
+pub use kept::Kept;
 pub use record::ForceCurve;
 pub use touch::Nuisance;
 
 use crate::identify::IdentifyError;
 use resolved::CurvesPlan;
 
-/// All curves of a plan, side by side; `done` is told after each.
+/// All curves of a plan, side by side, but those whose laws are kept; `done` is told after each.
 ///
 /// # Errors
 /// [`IdentifyError`] where it was interrupted, and where no curve could be fitted.
 pub fn fit_all(
     plan: &CurvesPlan,
+    kept: &Kept,
     interrupt: &AtomicBool,
     done: &(dyn Fn() + Sync),
 ) -> Result<Vec<Result<CurveFit, CurveError>>, IdentifyError> {
-    let curves = plan.curves.par_iter();
-    let fits = curves.map(|curve| {
-        let found = fit(&plan.fit, curve, interrupt);
+    let curves = plan.curves.par_iter().zip(kept::keys(plan));
+    let fits = curves.map(|(curve, key)| {
+        let found = fit::fit_knowing(&plan.fit, curve, kept.get(&key), interrupt);
+        if let Ok(found) = &found {
+            kept.put(key, found);
+        }
         done();
         found
     });

@@ -77,7 +77,7 @@ impl<'a> Fitted<'a> {
             times_s: (finest_s, time_s[time_s.len() - 1] - time_s[0]),
             scale_m: deepest_m,
             sigma_n: sigma_n.collect(),
-            nuisances: nuisances(points, touch, plan.drag_n_s_per_m.is_none()),
+            nuisances: nuisances(points, touch, plan.probe.drag_n_s_per_m.is_none()),
             basis: Vec::new(),
             interrupt,
         };
@@ -171,6 +171,21 @@ impl<'a> Fitted<'a> {
         let found = all.filter_map(|(_, start)| minimise(&problem(false), start, ON_THE_WAY));
         let found = found.min_by(|a, b| a.squares().total_cmp(&b.squares()))?;
         minimise(&problem(true), &found.unknowns, EXACTLY)
+    }
+
+    /// A law with unknowns that were found before.
+    pub(super) fn at(&self, form: Form, unknowns: &[f64]) -> Option<Solution<Vec<f64>>> {
+        let problem = OfForm {
+            fitted: self,
+            form,
+            is_near: true,
+        };
+        let unknowns = unknowns.to_vec();
+        let residuals = problem.residuals(&unknowns)?;
+        Some(Solution {
+            unknowns,
+            residuals,
+        })
     }
 
     /// A start with all its moduli multiplied so that it comes nearest to the curve, and the sum of squares that are left.

@@ -14,6 +14,8 @@ pub struct ForceCurve {
     pub indentation_m: Vec<f64>,
     /// What moves the instrument, which a drag goes with, where that is not the indentation.
     pub travel_m: Option<Vec<f64>>,
+    /// Standard deviation (N) of the forces, where it is known; otherwise neighbours tell it.
+    pub force_error_n: Option<f64>,
     /// Where on the specimen it was taken, of a map.
     pub place_m: Option<(f64, f64)>,
 }
@@ -94,7 +96,10 @@ impl ForceCurve {
     /// The points of a fit.
     pub fn points(&self) -> Points {
         let count = self.time_s.len();
-        let noise_n = deviation(&self.force_n).max(LEAST_NOISE_OF_FORCE * span(&self.force_n));
+        let noise_n = self
+            .force_error_n
+            .unwrap_or_else(|| deviation(&self.force_n));
+        let noise_n = noise_n.max(LEAST_NOISE_OF_FORCE * span(&self.force_n));
         let smooth = Smooth::new(&self.time_s, &self.indentation_m);
         let indentation_m = &smooth.at_samples;
         let travel = self.travel_m.as_ref();

@@ -1,13 +1,16 @@
 //! What an identification file says of force curves: its keys, and the same with every default written out.
 
+use std::ops::Bound;
+
 use super::fit::CurvePlan;
 use super::record::ForceCurve;
 use crate::identify::Sought;
 use crate::identify::resolved::{IDENTIFY_BRANCHES, LAW, branches_setting};
+use crate::indenter::Indenter;
 use crate::material::dynamic::MOST_REPLICAS;
 use crate::quantity::Dimension;
 use crate::quantity::block::Block as _;
-use crate::quantity::key::{Entries, Kind, quantity};
+use crate::quantity::key::{Entries, Kind, Limits, number, quantity};
 use crate::quantity::setting::{Table, document};
 use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::resolved::{compressibility, indenter_material_text};
@@ -27,6 +30,22 @@ keys! {
     SAMPLES = "samples", Kind::Integer(0..=MOST_REPLICAS), or 0_usize;
 }
 
+const UNCERTAINTY: Limits = Limits::new(Bound::Included(0.0), Bound::Included(0.5));
+
+impl Probe {
+    /// The relative standard deviation (1) that its uncertainties give to all forces; the force of a sphere goes with the root of its radius,
+    /// that of a flat punch with it.
+    pub fn scale_uncertainty(&self, indenter: &dyn Indenter) -> f64 {
+        let power = if indenter.shape() == "sphere" {
+            0.5
+        } else {
+            1.0
+        };
+        self.spring_constant_uncertainty
+            .hypot(power * self.radius_uncertainty)
+    }
+}
+
 block_with_defaults! {
     /// What is known of the instrument of force curves.
     #[derive(Copy)]
@@ -37,6 +56,10 @@ block_with_defaults! {
         frame_compliance_m_per_n: f64 = 0.0 => "frame_compliance", Kind::Number(quantity(Dimension::FrameCompliance).not_negative());
         /// Drag on the probe while it moves, where it is known; otherwise it is found, of curves that have a part before contact.
         drag_n_s_per_m: Option<f64> = None => "drag", Kind::Number(quantity(Dimension::Damping).not_negative());
+        /// Relative standard uncertainty of the spring constant, which all curves have in common: 0.05 for 5 %.
+        spring_constant_uncertainty: f64 = 0.0 => "spring_constant_uncertainty", Kind::Number(number("0.05").within(UNCERTAINTY));
+        /// Relative standard uncertainty of the radius of a sphere or a flat punch.
+        radius_uncertainty: f64 = 0.0 => "radius_uncertainty", Kind::Number(number("0.02").within(UNCERTAINTY));
     }
 }
 
@@ -45,7 +68,6 @@ block_with_defaults! {
 pub struct CurvesPlan {
     pub title: String,
     pub fit: CurvePlan,
-    pub probe: Probe,
     /// Names of laws, as asked for.
     pub laws: Vec<String>,
     /// Branches of a series; `None` lets the curve choose.
@@ -73,7 +95,7 @@ pub fn resolved_text(plan: &CurvesPlan) -> String {
         material.toml(),
         contact.indenter,
         identify.toml(),
-        plan.probe.table().toml(),
+        plan.fit.probe.table().toml(),
     ];
     document(&plan.title, blocks)
 }

@@ -89,6 +89,8 @@ pub(crate) struct Tried {
     pub(crate) squares: f64,
     /// A column for each unknown, in standard deviations of the numbers.
     pub(crate) derivatives: DMatrix<f64>,
+    /// What an error of one standard deviation that all numbers have in common changes in the residuals; nothing where there is none.
+    pub(crate) in_common: Vec<f64>,
 }
 
 /// What is to be met, and over which times.
@@ -159,7 +161,13 @@ impl Laws {
         };
         let all = tried.iter().zip(&criteria).zip(weights_of(&criteria));
         let all = all.filter_map(|((tried, criteria), weights)| {
-            let directions = Directions::new(&tried.derivatives, deviation)?;
+            let mut directions = Directions::new(&tried.derivatives, deviation)?;
+            if !tried.in_common.is_empty() {
+                // What is included is half an interval.
+                let changes = tried.in_common.iter().map(|change| half_width * change);
+                let changes: Vec<f64> = changes.collect();
+                directions.include(&tried.derivatives, &changes, half_width);
+            }
             Some(tried.law(directions, half_width, (criteria[0], weights)))
         });
         let mut all: Vec<FittedLaw> = all.collect();
@@ -376,6 +384,7 @@ pub(crate) fn fitted(
             squares: found.squares(),
             derivatives: problem.derivatives(&found.unknowns)?,
             unknowns: found.unknowns,
+            in_common: Vec::new(),
         })
     });
     Laws::of(&all.collect::<Vec<Tried>>(), numbers)

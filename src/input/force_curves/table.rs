@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::force_curve::ForceCurve;
 use crate::force_curve::resolved::Probe;
-use crate::input::data_file::{Column, DataFile, Holes, TIME};
+use crate::input::data_file::{Column, DataFile, Holds, Holes, TIME};
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source};
 use crate::quantity::Dimension::{Force, Length};
 
@@ -15,7 +15,7 @@ const CURVE: Column = Column::pure(
 .optional();
 
 #[rustfmt::skip]
-const COLUMNS: [Column; 6] = [
+const COLUMNS: [Column; 7] = [
     TIME,
     Column::new(&["force", "load", "normal_force"], Force, "forces").by_first_name().optional(),
     Column::new(&["indentation", "depth", "approach", "penetration", "tip_sample_separation", "disp"], Length, "indentations")
@@ -23,6 +23,8 @@ const COLUMNS: [Column; 6] = [
     Column::new(&["piezo", "z_piezo", "piezo_position", "height", "z"], Length, "piezo positions").by_first_name().optional(),
     Column::new(&["deflection", "cantilever_deflection", "vertical_deflection", "cantilever"], Length, "deflections").by_first_name().optional(),
     CURVE,
+    // That of a load in a history of this program is the error of its computation.
+    Column::new(&["force"], Force, "errors of forces").of_errors(Holds::Errors, "errors of forces").optional(),
 ];
 
 /// The curves of a table that messages call `name`.
@@ -55,6 +57,20 @@ pub(super) fn parse(
     let problems = Problems::new();
     let stem = super::stem(name);
     let many = table.has(5);
+    let force_error_n = column(6);
+    if let Some(row) = force_error_n
+        .iter()
+        .flatten()
+        .position(|error| *error <= 0.0)
+    {
+        let report = Diagnostic::at(&table.cell(row, 6), "an error must be above zero");
+        return Err(report
+            .help(
+                "write a standard deviation, or leave the column out: the noise is then estimated",
+            )
+            .into());
+    }
+    let mut squares: BTreeMap<u64, f64> = BTreeMap::new();
     for (row, number) in of_row.iter().enumerate() {
         let curve = curves.entry(number.to_bits()).or_default();
         if curve.time_s.is_empty() {
@@ -71,6 +87,13 @@ pub(super) fn parse(
         }
         curve.time_s.push(time_s[row]);
         curve.force_n.push(force_n[row]);
+        if let Some(errors) = &force_error_n {
+            // The noise of a curve is one number: the root mean square of its errors.
+            let sum = squares.entry(number.to_bits()).or_default();
+            *sum += errors[row] * errors[row];
+            let count = curve.force_n.len() as f64;
+            curve.force_error_n = Some((*sum / count).sqrt());
+        }
         let gives_m = probe.frame_compliance_m_per_n * force_n[row];
         curve.indentation_m.push(indentation_m[row] - gives_m);
         if let Some(piezo_m) = &piezo_m {
