@@ -7,7 +7,7 @@ from typing import Any, Literal, TypeVar
 from numpy.typing import ArrayLike, NDArray
 
 from ._result import Progress
-from ._toml import Quantity, TableLike
+from ._toml import ForceCurveLike, Quantity, TableLike, TopographyLike
 from .histories import HistoryResult
 from .indenters import Indenter
 from .materials import BulkModulus, Material
@@ -140,7 +140,7 @@ def simulate(
         progress: A function of what is done and what there is in all, or a bar of tqdm.
     """
 def identify(
-    data: str | PathLike[str] | TableLike | None = None,
+    data: str | PathLike[str] | TableLike | ForceCurveLike | Sequence[ForceCurveLike] | None = None,
     indenter: Indenter | None = None,
     *,
     file: str | PathLike[str] | None = None,
@@ -179,7 +179,7 @@ def identify(
 ) -> IdentifiedMaterial:
     """
     Args:
-        data: Measured cycles, with columns of a sweep and their errors where they are known: arrays by name, a data frame, a result of `analyse`, a CSV file, or a folder of `contact-dma analyse`. NaN or None where nothing was measured. Of a history `time_s` and `approach_m`, or `load_n` under a prescribed approach.
+        data: Measured cycles, with columns of a sweep and their errors where they are known: arrays by name, a data frame, a result of `analyse`, a CSV file, or a folder of `contact-dma analyse`. NaN or None where nothing was measured. Of a history `time_s` and `approach_m`, or `load_n` under a prescribed approach. Or a force curve of afmformats, or a list of several.
         indenter: What is pressed into it.
         file: An identification file in place of all others, with `overrides`.
         branches: Branches of the series: a number, or `auto` (the default): as many as the data require. "auto", or an integer from 1 to 6.
@@ -368,8 +368,8 @@ class MaterialForms:
         exponent: float,
         band: ArrayLike,
         accuracy: float = 0.001,
-        equilibrium: Quantity,
-        second_exponent: float = 0.0,
+        equilibrium: Quantity | None = None,
+        second_exponent: float | None = 0.0,
         name: str | None = None,
         poisson_ratio: float | None = None,
         bulk_modulus: BulkModulus | None = None,
@@ -581,7 +581,7 @@ class Profile(Indenter):
 class HeightMap(Indenter):
     def __init__(
         self,
-        heights: ArrayLike | PathLike[str],
+        heights: ArrayLike | PathLike[str] | TopographyLike,
         spacing: ArrayLike | None = None,
         *,
         sha256: str | None = None,
@@ -593,7 +593,7 @@ class HeightMap(Indenter):
     ) -> None:
         """A measured surface: a matrix (CSV or `.npy`), or columns `x_m`, `y_m`, `z_m`.
         Args:
-            heights: An array of shape (cells along y, cells along x), first row at the smallest y; or a file (CSV, ``.npy``).
+            heights: An array of shape (cells along y, cells along x), first row at the smallest y; or a file (CSV, ``.npy``); or a topography of SurfaceTopography.
             spacing: Distance between points of a matrix, or one for x and one for y; not for files with columns `x_m`, `y_m`, `z_m`. An array of two, each a length above zero.
             sha256: SHA-256 of the data file, in hexadecimal, to make sure that it has not changed. A string.
             quantity: Whether values are heights, positive towards the half-space, or gaps. "height" or "gap".

@@ -92,7 +92,7 @@ def warn_without_effect(call: str, source: Source, keys: Mapping[str, Any], reso
                 warn(f"{call}: {option} has no effect with {kind}=\"{name}\"")
 
 
-HEADERS = {"sweep": ("drive", "sweep"), "simulate": ("drive",), "identify": ("identify", "material", "drive")}
+HEADERS = {"sweep": ("drive", "sweep"), "simulate": ("drive",), "identify": ("identify", "material", "drive"), "identify-curve": ("identify", "material")}
 """Tables that a call has whatever is given."""
 
 

@@ -26,6 +26,27 @@ class TableLike(Protocol):
     def __getitem__(self, name: Any, /) -> Any: ...
 
 
+class ForceCurveLike(Protocol):
+    """A force curve of afmformats: columns by name, and settings."""
+
+    columns: Any
+    metadata: Any
+
+    def __getitem__(self, name: str, /) -> Any: ...
+
+
+class TopographyLike(Protocol):
+    """A map of SurfaceTopography: heights with the first axis along x, and the size of a pixel, in a unit."""
+
+    @property
+    def unit(self) -> Any: ...
+
+    @property
+    def pixel_size(self) -> Any: ...
+
+    def heights(self) -> Any: ...
+
+
 def is_table(given: object) -> TypeGuard[TableLike]:
     """Whether this has columns by name."""
     return hasattr(given, "keys") and hasattr(given, "__getitem__")

@@ -58,7 +58,10 @@ class Indenter:
     def _make(self, shape: str, keys: Mapping[str, Any], **data: Any) -> None:
         """Of keys by their dotted names, and of data: a file, a table, or arrays."""
         shown, tables, file = [], [], {}
+        keys = dict(keys)
         for argument, given in list(data.items())[:1]:
+            if argument == "heights" and _is_topography(given):
+                given = _of_topography(given, keys)
             if isinstance(given, (str, os.PathLike)):
                 file["indenter.file"] = _toml.path(given)
                 shown.append(f"file={file['indenter.file']!r}")
@@ -116,6 +119,25 @@ def _brief(given: Any) -> str:
     """What was given, of tables how many."""
     is_long = isinstance(given, list) and given and isinstance(given[0], Mapping)
     return f"<{len(given)}>" if is_long else repr(given)
+
+
+def _is_topography(given: Any) -> bool:
+    """Whether it is a topography of the package SurfaceTopography."""
+    return callable(getattr(given, "heights", None)) and hasattr(given, "pixel_size") and hasattr(given, "unit")
+
+
+_METRES = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "\u00b5m": 1e-6, "\u03bcm": 1e-6, "nm": 1e-9, "pm": 1e-12, "\u00c5": 1e-10}
+
+
+def _of_topography(given: Any, keys: dict[str, Any]) -> Floats:
+    """Heights (m) of a topography, rows along y, and its spacing among the keys."""
+    unit = _METRES.get(str(given.unit))
+    if unit is None:
+        raise ValueError(f"the topography has the unit {given.unit!r}: give it one of {', '.join(_METRES)}")
+    if len(given.pixel_size) != 2:
+        raise ValueError("the topography is a line: give a map, or its points to Profile")
+    keys["indenter.spacing"] = [f"{unit * float(step)!r} m" for step in given.pixel_size]
+    return np.ascontiguousarray(unit * np.asarray(given.heights(), dtype=np.float64).T)
 
 
 def _map(heights: Any, keys: Mapping[str, Any]) -> bytes:

@@ -194,7 +194,7 @@ class IdentifiedMaterial:
 @_calls.body("identify")
 def _identify(
     keys: Mapping[str, Any],
-    data: str | os.PathLike[str] | _toml.TableLike | None = None,
+    data: str | os.PathLike[str] | _toml.TableLike | _toml.ForceCurveLike | Sequence[_toml.ForceCurveLike] | None = None,
     indenter: Indenter | None = None,
     *,
     file: str | os.PathLike[str] | None = None,
@@ -223,25 +223,54 @@ def _identify(
         >>> bool(abs(found.prony.equilibrium / 10e6 - 1) < 0.01)
         True
     """
+    keys = dict(keys)
     if file is not None:
         if data is not None or indenter is not None:
             raise ValueError("identify takes a file, or data and indenter, not both")
         source = Source(_toml.existing(file), None, _toml.overrides(overrides))
         return _identified(source, threads)
-    if data is None or not isinstance(indenter, Indenter):
-        raise ValueError("identify(data, indenter, ...) needs measured cycles and the indenter, or file=...")
+    curves = keys.pop("identify.curve", None)
+    if (data is None) == (curves is None) or not isinstance(indenter, Indenter):
+        raise ValueError("identify(data, indenter, ...) needs measured cycles and the indenter, curve=[...] and the indenter, or file=...")
     if overrides is not None:
         raise ValueError("overrides change a file; write options as arguments: branches=3 in place of {'identify.branches': 3}")
-    name, tables = "argument `data`", []
-    if _toml.is_table(data):
-        tables = [(name, table_text(_columns(data)).encode())]
+    several = data if isinstance(data, (list, tuple)) else [data]
+    name, tables, call = "argument `data`", [], "identify"
+    if curves is not None or all(map(_is_force_curve, several)):
+        call, names = "identify-curve", curves
+        if curves is None:
+            names = [f"{name} {number}" for number, _ in enumerate(several)]
+            tables = [(name, _of_force_curve(curve)) for name, curve in zip(names, several, strict=True)]
+        keys = {"identify.curve": names, **{key: given for key, given in keys.items() if not key.startswith(_OF_CYCLES)}}
     else:
-        name = _toml.path(data)  # type: ignore[arg-type]
-    keys = {"identify.data": name, **keys}
-    source = source_of_values("identify", keys, None, indenter, tables=tables, **bodies)
+        if _toml.is_table(data):
+            tables = [(name, table_text(_columns(data)).encode())]
+        else:
+            name = _toml.path(data)  # type: ignore[arg-type]
+        keys = {"identify.data": name, **keys}
+    source = source_of_values(call, keys, None, indenter, tables=tables, **bodies)
     found = _identified(source, threads)
     warn_without_effect("identify", source, keys, found._files["resolved.toml"].decode("utf-8"))
     return found
+
+
+_OF_CYCLES = ("drive.", "cycle.", "solver.")
+"""Keys of the model of cycles, of which force curves have none."""
+
+
+def _is_force_curve(data: Any) -> bool:
+    """Whether it is a force curve of the package afmformats."""
+    return hasattr(data, "metadata") and hasattr(data, "columns") and not _toml.is_table(data) and "force" in data.columns
+
+
+def _of_force_curve(data: Any) -> bytes:
+    """Its time, force and indentation as a table: the height falls while the probe comes nearer, and bends by the force over its spring constant."""
+    heights = [name for name in ("height (measured)", "height (piezo)") if name in data.columns]
+    spring = data.metadata.get("spring constant", float("nan"))
+    if not heights or "time" not in data.columns or not spring > 0.0:
+        raise ValueError("a force curve needs the columns `time` and `height (measured)` and the metadata `spring constant`")
+    time, force, height = (np.asarray(data[name], dtype=np.float64) for name in ("time", "force", heights[0]))
+    return table_text({"time_s": time, "force_n": force, "indentation_m": -height - force / spring, "piezo_m": -height}).encode()
 
 
 def _identified(source: Source, threads: int | None) -> IdentifiedMaterial:

@@ -161,3 +161,51 @@ def test_approaches_whose_zero_is_unknown_are_no_data() -> None:
     found = cd.identify(data, cd.Sphere("2 mm"), approach_zero="unknown", **options)
     assert set(found.fit["column"]) == {"energy_loss_j", "phase_lag_rad"}
     assert found.prony.equilibrium == pytest.approx(10e6, rel=0.02)
+
+
+class ForceCurve:
+    """What afmformats gives of a force curve: columns by name, in SI units, with heights that fall as the probe comes nearer."""
+
+    def __init__(self, columns: dict[str, Any], spring: float) -> None:
+        self._columns, self.columns, self.metadata = columns, list(columns), {"spring constant": spring}
+
+    def __getitem__(self, name: str) -> Any:
+        return self._columns[name]
+
+
+def test_force_curves_of_afmformats_are_identified_as_files_are(tmp_path: Path) -> None:
+    gel = cd.Material.fractional(
+        model="springpot", modulus="longitudinal", stiffness="1 kPa", time="1 s", exponent=0.2, band=["0.05 rad/s", "1e4 rad/s"], poisson_ratio=0.5
+    )
+    sphere = cd.Sphere("5 um")
+    ramp = [{"kind": "ramp", "to": "0.5 um", "duration": "0.5 s"}, {"kind": "step", "to": "0.5 um", "duration": "1 s"}]
+    history = cd.simulate(gel, sphere, control="approach", segments=ramp)
+    noise = np.random.default_rng(1).normal(size=len(history["load_n"]))
+    force = np.asarray(history["load_n"]) * (1.0 + 1e-3 * noise)
+    indentation = np.asarray(history["approach_m"])
+    curve = ForceCurve({"time": history["time_s"], "force": force, "height (measured)": 1e-5 - indentation - force / 0.05}, 0.05)
+    of_object = cd.identify(curve, sphere, poisson_ratio=0.5, law=["power-law", "standard-solid"])
+    assert of_object.summary["law"] == "power-law"
+    assert of_object.summary["parameters"]["exponent"]["value"] == pytest.approx(0.2, abs=0.01)
+    columns = {"time_s": history["time_s"], "force_n": force, "indentation_m": indentation - 1e-5}
+    pd.DataFrame(columns).to_csv(tmp_path / "curve.csv", index=False)
+    of_file = cd.identify(curve=[str(tmp_path / "curve.csv")], indenter=sphere, poisson_ratio=0.5, law=["power-law", "standard-solid"])
+    value = of_file.summary["parameters"]["modulus_pa"]["value"]
+    assert of_object.summary["parameters"]["modulus_pa"]["value"] == pytest.approx(value, rel=1e-6)
+    with pytest.raises(ValueError, match="spring constant"):
+        cd.identify(ForceCurve({"time": [0.0], "force": [0.0], "height (measured)": [0.0]}, float("nan")), sphere, poisson_ratio=0.5)
+
+
+class Topography:
+    """What SurfaceTopography gives of a map: heights with the first axis along x, in a unit."""
+
+    unit, pixel_size = "um", (0.1, 0.2)
+
+    def heights(self) -> Any:
+        return -0.01 * (np.linspace(-1, 1, 16)[:, None] ** 2 + np.linspace(-1, 1, 12)[None, :] ** 2)
+
+
+def test_a_topography_is_the_map_of_its_heights() -> None:
+    own = cd.HeightMap(Topography())
+    assert own == cd.HeightMap(1e-6 * Topography().heights().T, spacing=["1e-07 m", "2e-07 m"])
+    assert own.gaps.shape == (12, 16)

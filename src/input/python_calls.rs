@@ -282,6 +282,31 @@ fn material(form: &'static str, about: &'static str) -> Call {
     let (path, data) = (format!("material.{form}"), data_of(form));
     let rows = keys::tables_at(&path).into_iter().next();
     let mut arguments = arguments_of(&path, rows.map(Rows::all).unwrap_or_default(), data);
+    // What some ways to fill the table lack may be left out: the program says where it is needed.
+    let own: Vec<&str> = rows
+        .map(Rows::own)
+        .unwrap_or_default()
+        .iter()
+        .map(|key| key.name)
+        .collect();
+    let kinds = rows.map(Rows::branches).unwrap_or_default();
+    let is_of_some = |argument: &Argument| {
+        if !data.1.is_empty() {
+            return false;
+        }
+        let is_in = |way: &Branch| way.keys.iter().any(|key| key.name == argument.name);
+        !own.contains(&argument.name) && kinds.iter().any(is_in) && !kinds.iter().all(is_in)
+    };
+    let all = arguments.into_iter();
+    arguments = all
+        .map(|argument| {
+            if is_of_some(&argument) {
+                optional(argument)
+            } else {
+                argument
+            }
+        })
+        .collect();
     let name = deciding(form).filter(|key| matches!(key.kind, Kind::Text));
     arguments.extend(name.map(|key| Argument {
         name: NAME.name,

@@ -62,8 +62,8 @@ pub(super) const PROFILE: [Own; 2] = [
 
 pub(super) const HEIGHTS: [Own; 1] = [(
     "heights",
-    "ArrayLike | PathLike[str]",
-    "An array of shape (cells along y, cells along x), first row at the smallest y; or a file (CSV, ``.npy``).",
+    "ArrayLike | PathLike[str] | TopographyLike",
+    "An array of shape (cells along y, cells along x), first row at the smallest y; or a file (CSV, ``.npy``); or a topography of SurfaceTopography.",
 )];
 
 pub(super) const MATERIAL: Own = (
@@ -86,10 +86,10 @@ pub(super) const INDENTERS: Own = (
 pub(super) const INDENTER: Own = ("indenter", "Indenter | None", "What is pressed into it.");
 pub(super) const DATA: Own = (
     "data",
-    "str | PathLike[str] | TableLike | None",
+    "str | PathLike[str] | TableLike | ForceCurveLike | Sequence[ForceCurveLike] | None",
     "Measured cycles, with columns of a sweep and their errors where they are known: arrays by name, a data frame, a result of `analyse`, a \
      CSV file, or a folder of `contact-dma analyse`. NaN or None where nothing was measured. Of a history `time_s` and `approach_m`, or \
-     `load_n` under a prescribed approach.",
+     `load_n` under a prescribed approach. Or a force curve of afmformats, or a list of several.",
 );
 pub(super) const FILE: Own = (
     "file",

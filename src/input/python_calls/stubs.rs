@@ -105,7 +105,7 @@ from typing import Any, Literal, TypeVar
 from numpy.typing import ArrayLike, NDArray
 
 from ._result import Progress
-from ._toml import Quantity, TableLike
+from ._toml import ForceCurveLike, Quantity, TableLike, TopographyLike
 from .histories import HistoryResult
 from .indenters import Indenter
 from .materials import BulkModulus, Material
