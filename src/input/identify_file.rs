@@ -17,11 +17,11 @@ use super::{
     segments_block, solver_block,
 };
 use crate::drive::segments::SEGMENTS;
-use crate::force_curve::resolved::{CURVE, CurvesPlan, MOST_CHOSEN, Probe, SAMPLES};
+use crate::force_curve::resolved::{CURVE, CurvesPlan, MOST_CHOSEN, Probe};
 use crate::force_curve::{self, CurvePlan};
 use crate::identify::data::{Measurements, TableColumns};
 use crate::identify::resolved::{
-    APPROACH_ZERO, ATTRACTION, DATA, IDENTIFY_BRANCHES, LAW, forms, resolved_text,
+    APPROACH_ZERO, ATTRACTION, DATA, IDENTIFY_BRANCHES, LAW, SAMPLES, forms, resolved_text,
 };
 use crate::identify::{
     ApproachZero, Driven, IdentifyPlan, MOST_BRANCHES, Sought, SoughtAttraction,
@@ -209,6 +209,7 @@ fn driven_plan(
         drive: drive?,
         branches: measured.branches,
         laws: measured.laws,
+        samples: measured.samples,
         measurements: measured.measurements,
         data: measured.file,
         approach_zero: measured.approach_zero,
@@ -270,6 +271,7 @@ struct Measured {
     attraction: SoughtAttraction,
     branches: Option<usize>,
     laws: Option<Vec<Form>>,
+    samples: usize,
 }
 
 /// The laws of these names that a drive can tell; `None` where a problem was reported.
@@ -318,8 +320,21 @@ fn measured_block(
     let place_of_attraction = table.key_location(&ATTRACTION);
     let place_of_laws = table.key_location(&LAW);
     let laws: Option<Option<Vec<String>>> = table.value(&LAW);
+    let samples = table.value(&SAMPLES);
+    let place_of_samples = table.key_location(&SAMPLES);
     table.finish();
     let (approach_zero, attraction, branches) = (approach_zero?, attraction?, branches?);
+    let samples: usize = samples?;
+    if let (Some(place), false) = (place_of_samples, attraction == SoughtAttraction::Known)
+        && samples > 0
+    {
+        let report = problems.at(
+            &place,
+            "no samples are drawn while the attraction is sought",
+        );
+        report.help("leave this key out, or write `attraction = \"known\"`");
+        return None;
+    }
     let laws = match (laws?, place_of_laws) {
         (Some(names), Some(place)) => {
             let is_sought = attraction != SoughtAttraction::Known;
@@ -380,5 +395,6 @@ fn measured_block(
         attraction,
         branches,
         laws,
+        samples,
     })
 }

@@ -273,3 +273,38 @@ fn the_law_of_a_gel_is_found_from_its_relaxation_and_its_block_relaxes_alike() {
     };
     near!(last("again"), last("gel"), 0.01);
 }
+
+#[test]
+fn solids_of_data_with_their_noise_drawn_anew_spread_as_the_bands_say_and_a_sweep_has_their_band() {
+    let place = Place::new();
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("sweeps/identify-polymer.toml");
+    let samples = "--set identify.samples=40 --quiet --out found";
+    place.done(&format!("identify '{}' {samples}", file.display()));
+    let ensemble = place.table("found/ensemble.csv");
+    assert_eq!(ensemble.len(), 3 * 40);
+    let middle: Vec<f64> = (0..40)
+        .map(|k| ensemble.number(3 * k + 1, "storage_modulus_pa").ln())
+        .collect();
+    let mean = middle.iter().sum::<f64>() / 40.0;
+    let squares = middle.iter().map(|ln| (ln - mean).powi(2));
+    let spread = (squares.sum::<f64>() / 39.0).sqrt();
+    let moduli = place.table("found/figures/moduli.csv");
+    let [low, high] = moduli.row(
+        moduli.len() / 2,
+        ["storage_modulus_low_pa", "storage_modulus_high_pa"],
+    );
+    let deviation = (high / low).ln() / 2.0 / 1.96;
+    assert!(
+        (0.6..1.6).contains(&(spread / deviation)),
+        "{spread} {deviation}"
+    );
+    let sweep = "[indenter]\nshape = \"sphere\"\nradius = \"2 mm\"\n[drive]\nmean = \"0.2 N\"\namplitude = \"0.1 N\"\n[sweep]\n\
+                 angular_frequency = [\"1 rad/s\"]\n";
+    let block = place.text("found/material.toml");
+    place.put("swept.toml", format!("title = \"swept\"\n{block}{sweep}"));
+    place.done("sweep swept.toml --quiet --no-figures --out swept");
+    let swept = place.table("swept/sweep.csv");
+    let relative =
+        swept.number(0, "energy_loss_material_error_j") / swept.number(0, "energy_loss_j");
+    assert!((1e-3..0.1).contains(&relative), "{relative}");
+}

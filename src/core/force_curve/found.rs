@@ -1,35 +1,16 @@
 //! What was found of a curve: its laws with their weights and intervals, and the moduli with their bands.
 
 use nalgebra::{DMatrix, DVector};
-use num_complex::Complex;
 use rayon::prelude::*;
 
 use super::fit::CurveError;
 use super::problem::{EXACTLY, Fitted, OfForm};
 use super::record::Points;
 use super::touch::Nuisance;
-use crate::identify::laws::{Estimate, FittedLaw, Laws, Numbers, Tried, beyond};
-use crate::material::Relaxation;
+use crate::identify::laws::{Drawn, Estimate, FittedLaw, Laws, Numbers, Tried, beyond};
 use crate::material::law::Form;
 use crate::numerics::levenberg_marquardt::{Solution, minimise};
 use crate::numerics::random::Noise;
-
-/// What a curve with its noise drawn anew gives.
-#[derive(Debug, Clone)]
-pub struct Drawn {
-    pub form: Form,
-    values: Vec<f64>,
-    pub contact_point_m: f64,
-    /// The series that stands for the law over the times of the curve, and a decade beyond.
-    pub series: Relaxation,
-}
-
-impl Drawn {
-    /// E* (Pa) at an angular frequency (rad/s).
-    pub fn complex_modulus_pa(&self, angular_frequency_rad_per_s: f64) -> Option<Complex<f64>> {
-        (self.form).complex_modulus_pa(&self.values, angular_frequency_rad_per_s)
-    }
-}
 
 /// What was found of a curve.
 #[derive(Debug, Clone)]
@@ -47,8 +28,8 @@ pub struct CurveFit {
     pub error_n: Vec<f64>,
     /// Whether the retraction pulls, and is left out.
     pub is_pulled: bool,
-    /// What is found where the noise falls otherwise, each alike in probability; empty where none was asked for.
-    pub ensemble: Vec<Drawn>,
+    /// What is found where the noise falls otherwise, with its contact point (m), each alike in probability; empty where none was asked for.
+    pub ensemble: Vec<(Drawn, f64)>,
 }
 
 /// A law and its least squares solution.
@@ -136,7 +117,7 @@ impl Fitted<'_> {
 
     /// A parametric bootstrap (B. Efron, R. J. Tibshirani, *An Introduction to the Bootstrap*, Chapman & Hall 1993, section 6.5): the computed
     /// curve with noise as the best law leaves it, to which a law is fitted, each as often as its weight in the band says.
-    pub(super) fn ensemble(&self, found: &CurveFit, samples: usize) -> Vec<Drawn> {
+    pub(super) fn ensemble(&self, found: &CurveFit, samples: usize) -> Vec<(Drawn, f64)> {
         const SEED: u64 = 1;
         let draw = |number: usize| {
             let mut random = Noise::stream(SEED, number as u64);
@@ -155,12 +136,12 @@ impl Fitted<'_> {
             let unknowns = minimise(&problem, &law.unknowns, EXACTLY)?.unknowns;
             let (contact_part, unknowns) = unknowns.split_last()?;
             let values = law.form.values(unknowns);
-            Some(Drawn {
+            let drawn = Drawn {
                 form: law.form,
                 series: law.form.series_within(&values, beyond(self.times_s))?,
                 values,
-                contact_point_m: contact_part * self.scale_m,
-            })
+            };
+            Some((drawn, contact_part * self.scale_m))
         };
         (0..samples).into_par_iter().filter_map(draw).collect()
     }

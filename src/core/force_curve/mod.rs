@@ -30,7 +30,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::prelude::*;
 
 pub use fit::{CurveError, CurvePlan, fit};
-pub use found::{CurveFit, Drawn};
+pub use found::CurveFit;
 pub use kept::Kept;
 pub use record::ForceCurve;
 pub use touch::Nuisance;

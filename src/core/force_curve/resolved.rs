@@ -5,9 +5,8 @@ use std::ops::Bound;
 use super::fit::CurvePlan;
 use super::record::ForceCurve;
 use crate::identify::Sought;
-use crate::identify::resolved::{IDENTIFY_BRANCHES, LAW, branches_setting};
+use crate::identify::resolved::{IDENTIFY_BRANCHES, LAW, SAMPLES, branches_setting};
 use crate::indenter::Indenter;
-use crate::material::dynamic::MOST_REPLICAS;
 use crate::quantity::Dimension;
 use crate::quantity::block::Block as _;
 use crate::quantity::key::{Entries, Kind, Limits, number, quantity};
@@ -25,9 +24,6 @@ keys! {
     /// A force curve: a table with `time_s`, `force_n` and `indentation_m`, or with `piezo_m` and `deflection_m` or `force_n`; several
     /// curves where it has a column `curve`. Or a list of such files. Where the contact begins is found.
     CURVE = "curve", Kind::Texts(CURVES);
-    /// How often the law is fitted again with the noise drawn anew. Of a single curve the fits are replicas of the material, from which a sweep
-    /// has a band about its loss.
-    SAMPLES = "samples", Kind::Integer(0..=MOST_REPLICAS), or 0_usize;
 }
 
 const UNCERTAINTY: Limits = Limits::new(Bound::Included(0.0), Bound::Included(0.5));

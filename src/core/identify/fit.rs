@@ -7,6 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::engine::EngineKind;
 use crate::identify::candidate::{Candidate, candidates, choose, leave_out_outlier};
 use crate::identify::chosen::with_laws;
+use crate::identify::ensemble::ensemble;
 use crate::identify::identified::{CellError, Identified, judged};
 use crate::identify::model::Model;
 use crate::identify::noise::Knowledge;
@@ -76,10 +77,12 @@ pub fn identify(plan: &IdentifyPlan, interrupt: &AtomicBool) -> Result<Identifie
         }
     }
     let found = at_full_resolution(&mut model, &linearised, found?)?;
-    match plan.laws {
-        Some(_) => with_laws(&model, &mut linearised, found),
-        None => Ok(found),
-    }
+    let mut found = match plan.laws {
+        Some(_) => with_laws(&model, &mut linearised, found)?,
+        None => found,
+    };
+    found.ensemble = ensemble(&mut linearised, &found, plan.samples);
+    Ok(found)
 }
 
 impl IdentifyError {

@@ -4,7 +4,7 @@ use nalgebra::DMatrix;
 
 use crate::identify::candidate::Candidate;
 use crate::identify::data::Number;
-use crate::identify::laws::Laws;
+use crate::identify::laws::{Drawn, Laws};
 use crate::identify::model::Model;
 use crate::identify::noise::Knowledge;
 use crate::identify::selection::Linearised;
@@ -112,6 +112,8 @@ pub struct Identified {
     pub adhesion: Option<AdhesionPlan>,
     /// Laws that were tried beside series, where they were asked for: the material is the best of them.
     pub laws: Option<Laws>,
+    /// What is found where the noise falls otherwise, each alike in probability; empty where none was asked for.
+    pub ensemble: Vec<Drawn>,
     pub(super) is_by_law: bool,
     pub(super) point: Point,
     directions: Directions,
@@ -194,6 +196,7 @@ pub(super) fn judged(
         cell_error,
         adhesion: None,
         laws: None,
+        ensemble: Vec::new(),
         is_by_law: false,
         point,
         directions,
@@ -232,6 +235,21 @@ impl Identified {
         let off = |c: &Compared| (c.computed / c.measured).ln() * c.measured / c.error;
         each.map(|c| (c, off(c)))
             .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
+    }
+
+    /// The series of a number of branches at a share of the sum of all weights: the one that was found, or another on the linearised contact.
+    pub(super) fn drawn(&self, share: f64) -> &Point {
+        let chosen = self.point.branches();
+        let mut left = share;
+        let others = self
+            .candidates
+            .iter()
+            .filter(|c| c.branches != chosen && !c.has_close_times);
+        let other = others.into_iter().find(|candidate| {
+            left -= candidate.weight;
+            left < 0.0
+        });
+        other.map_or(&self.point, |candidate| &candidate.point)
     }
 
     /// Logarithms of computed over measured numbers.

@@ -6,6 +6,7 @@
 //! Anderson, *Model Selection and Multimodel Inference*, Springer 2002).
 
 use nalgebra::{DMatrix, DVector};
+use num_complex::Complex;
 
 use crate::identify::noise::is_missed;
 use crate::identify::uncertainty::Directions;
@@ -63,6 +64,22 @@ pub struct FittedLaw {
     directions: Directions,
     /// Half of the interval of every unknown.
     pub(crate) halves: Vec<f64>,
+}
+
+/// What numbers with their noise drawn anew give.
+#[derive(Debug, Clone)]
+pub struct Drawn {
+    pub form: Form,
+    pub(crate) values: Vec<f64>,
+    /// The series that stands for the law over the times of the numbers, and a decade beyond.
+    pub series: Relaxation,
+}
+
+impl Drawn {
+    /// E* (Pa) at an angular frequency (rad/s).
+    pub fn complex_modulus_pa(&self, angular_frequency_rad_per_s: f64) -> Option<Complex<f64>> {
+        (self.form).complex_modulus_pa(&self.values, angular_frequency_rad_per_s)
+    }
 }
 
 /// Laws that were fitted to the same numbers.

@@ -53,6 +53,7 @@ mod candidate;
 mod chosen;
 mod curve;
 pub mod data;
+mod ensemble;
 mod fit;
 mod history;
 mod identified;
@@ -125,6 +126,8 @@ pub struct IdentifyPlan {
     pub branches: Option<usize>,
     /// Laws between which the data choose; `None` for series alone.
     pub laws: Option<Vec<Form>>,
+    /// How often the material is found again with the noise drawn anew.
+    pub samples: usize,
     pub measurements: Measurements,
     /// The file that they come from, as the plan names it.
     pub data: String,
@@ -186,6 +189,7 @@ impl IdentifyPlan {
             drive,
             branches: None,
             laws: None,
+            samples: 0,
             measurements,
             data: String::new(),
             approach_zero: None,
@@ -254,6 +258,8 @@ impl IdentifyPlan {
         let (lowest, highest) = found.window_rad_per_s;
         let mut body = self.body(&found.relaxation)?;
         body.origin.measured_window_s = Some((1.0 / highest, 1.0 / lowest));
+        let drawn = found.ensemble.iter().map(|drawn| self.body(&drawn.series));
+        body.origin.replicas = drawn.collect::<Result<_, _>>()?;
         Ok(body)
     }
 

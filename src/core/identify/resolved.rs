@@ -2,6 +2,7 @@
 
 use crate::identify::{ApproachZero, Driven, IdentifyPlan, MOST_BRANCHES, SoughtAttraction};
 use crate::keys;
+use crate::material::dynamic::MOST_REPLICAS;
 use crate::material::law::{Form, Law};
 use crate::quantity::block::Block as _;
 use crate::quantity::key::{Entries, Kind};
@@ -34,6 +35,9 @@ keys! {
     /// Laws between which the data choose: `auto` for all, a name, or a list of names. Left out: all of force curves, and series of cycles
     /// and histories.
     LAW = "law", Kind::Words(LAWS, LAW_ENTRIES), optional;
+    /// How often the material is found again with the noise drawn anew. Of cycles, a history or a single curve these are replicas of the material, from which a sweep
+    /// has a band about its loss.
+    SAMPLES = "samples", Kind::Integer(0..=MOST_REPLICAS), or 0_usize;
     /// What smallest, largest and mean approaches of cycles are counted from; left out: unknown in a table of `analyse`, from first contact
     /// in any other. Where it is unknown they are not data, and the mean of a prescribed approach is that of `[drive]`.
     APPROACH_ZERO = "approach_zero", Kind::Word(ApproachZero::WORDS), optional;
@@ -86,6 +90,7 @@ pub fn resolved_text(plan: &IdentifyPlan) -> String {
         .and(DATA.setting(plan.data.clone()))
         .and(IDENTIFY_BRANCHES.setting(branches_setting(plan.branches)))
         .and(LAW.setting(plan.laws.as_deref().map(names)))
+        .and(SAMPLES.setting(plan.samples))
         .and(APPROACH_ZERO.setting(plan.approach_zero));
     let identify = match plan.attraction {
         SoughtAttraction::Known => identify,

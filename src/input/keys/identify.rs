@@ -4,8 +4,8 @@ use super::material::{BULK_MODULUS, POISSON_RATIO};
 use super::{ADHESION, INDENTER, LAYER, SOLVER, TITLE};
 use crate::drive::segments::SEGMENTS;
 use crate::drive::{PRESCRIBES, harmonic};
-use crate::force_curve::resolved::{CURVE, Probe, SAMPLES};
-use crate::identify::resolved::{APPROACH_ZERO, ATTRACTION, DATA, IDENTIFY_BRANCHES, LAW};
+use crate::force_curve::resolved::{CURVE, Probe};
+use crate::identify::resolved::{APPROACH_ZERO, ATTRACTION, DATA, IDENTIFY_BRANCHES, LAW, SAMPLES};
 use crate::quantity::block::Block as _;
 use crate::quantity::key::{Key, Kind};
 use crate::quantity::rows::{Others, Rows, table};
@@ -20,8 +20,8 @@ use contact_dma_core::keys;
 
 static IDENTIFY_TABLE: Rows = Rows {
     means: " What was measured: cycles or a history under a drive that is known, or force curves, which have their own.",
-    keys: &[&[IDENTIFY_BRANCHES, LAW]],
-    others: Others::OneList(&[&[&[DATA, APPROACH_ZERO, ATTRACTION]], &[&[CURVE, SAMPLES]]]),
+    keys: &[&[IDENTIFY_BRANCHES, LAW, SAMPLES]],
+    others: Others::OneList(&[&[&[DATA, APPROACH_ZERO, ATTRACTION]], &[&[CURVE]]]),
 };
 
 static DRIVEN: Rows = Rows {

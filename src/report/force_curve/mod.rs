@@ -7,8 +7,9 @@ use rayon::prelude::*;
 use serde_json::Value;
 
 use crate::force_curve::resolved::{CurvesPlan, resolved_text};
-use crate::force_curve::{CurveError, CurveFit, Drawn, ForceCurve};
+use crate::force_curve::{CurveError, CurveFit, ForceCurve};
 use crate::identify::ModulusBand;
+use crate::identify::laws::Drawn;
 use crate::material::{Material, ModulusKind};
 use crate::quantity::{Dimension, format_human};
 use crate::report::dynamic::tables::prony;
@@ -143,8 +144,9 @@ impl<'a> CurvesReport<'a> {
         let (lowest, highest) = fit.window_rad_per_s;
         body.origin.measured_window_s = Some((1.0 / highest, 1.0 / lowest));
         let drawn = fit.ensemble.iter();
-        let replica =
-            |drawn: &Drawn| Material::from_relaxation(drawn.series.clone(), kind, known.clone());
+        let replica = |(drawn, _): &(Drawn, f64)| {
+            Material::from_relaxation(drawn.series.clone(), kind, known.clone())
+        };
         body.origin.replicas = drawn.map(replica).collect::<Result<_, _>>().ok()?;
         let mut text = Text::from(self.plan.title.as_str());
         text.append(self.text());

@@ -91,14 +91,14 @@ pub fn ensemble(report: &CurvesReport<'_>) -> Vec<u8> {
         let Found { curve, fit, .. } = found;
         let (low, high) = fit.window_rad_per_s;
         let samples = fit.ensemble.iter().enumerate();
-        samples.flat_map(move |(number, drawn)| {
+        samples.flat_map(move |(number, (drawn, contact_point_m))| {
             [low, found.middle(), high].into_iter().map(move |omega| {
                 let modulus = drawn.complex_modulus_pa(omega);
                 cells![
                     curve.name.clone(),
                     number + 1,
                     drawn.form.in_words(),
-                    drawn.contact_point_m,
+                    *contact_point_m,
                     omega,
                     modulus.map(|modulus| modulus.re),
                     modulus.map(|modulus| modulus.im),

@@ -37,14 +37,18 @@ impl IdentifyReport<'_> {
     /// Every file of the folder but figures and page: name and bytes; `block` is the `[material]` block.
     pub fn files(&self, summary: &Value, block: &str) -> Vec<(String, Vec<u8>)> {
         let top = |name, bytes| (Place::Top(name).to_string(), bytes);
-        vec![
+        let mut files = vec![
             top("material.toml", block.into()),
             top("resolved.toml", resolved_text(self.plan).into()),
             top("prony.csv", prony(&self.found.relaxation)),
             top("fit.csv", tables::fit(self)),
             top("summary.json", format!("{summary:#}\n").into()),
             (MODULI.to_string(), tables::moduli(self)),
-        ]
+        ];
+        if !self.found.ensemble.is_empty() {
+            files.push(top("ensemble.csv", tables::ensemble(self)));
+        }
+        files
     }
 
     /// The `[material]` block of a sweep file, every number exact, below title and findings as comments.
@@ -75,6 +79,13 @@ impl IdentifyReport<'_> {
         lines.extend(self.law());
         lines.push(self.window());
         lines.extend(self.cells());
+        let samples = self.found.ensemble.len();
+        if samples > 0 {
+            lines.push(format!(
+                "Ensemble: the material found {samples} times with the noise drawn anew; each is a replica of the material, from which a sweep has \
+                 a band about its loss."
+            ));
+        }
         if self.found.law().is_none() {
             lines.extend(self.open());
         }

@@ -77,6 +77,7 @@ pub fn summary(report: &IdentifyReport<'_>) -> Value {
         },
         "window_rad_per_s": found.window_rad_per_s,
         "moduli": moduli(report),
+        "ensemble": found.ensemble.len(),
         "notes": measured.notes(),
         "warnings": report.warnings(),
         "program": env!("CARGO_PKG_NAME"),

@@ -127,3 +127,31 @@ pub(in crate::report) fn over((lowest, highest): (f64, f64)) -> Vec<f64> {
         .map(|k| low * (high / low).powf(k as f64 / count))
         .collect()
 }
+
+/// `ensemble.csv`: the moduli of every sample, at both ends of the window and in the middle.
+pub fn ensemble(report: &IdentifyReport<'_>) -> Vec<u8> {
+    let (low, high) = report.found.window_rad_per_s;
+    let columns = [
+        "sample",
+        "law",
+        "angular_frequency_rad_per_s",
+        "storage_modulus_pa",
+        "loss_modulus_pa",
+    ];
+    let samples = report.found.ensemble.iter().enumerate();
+    let rows = samples.flat_map(|(number, drawn)| {
+        [low, (low * high).sqrt(), high]
+            .into_iter()
+            .map(move |omega| {
+                let modulus = drawn.complex_modulus_pa(omega);
+                cells![
+                    number + 1,
+                    drawn.form.in_words(),
+                    omega,
+                    modulus.map(|modulus| modulus.re),
+                    modulus.map(|modulus| modulus.im),
+                ]
+            })
+    });
+    csv(&columns, rows)
+}
