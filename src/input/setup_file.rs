@@ -138,6 +138,9 @@ stiffness = "150 N/m"
 time_lag = "20 us"
 thermal_drift = "0.05 nm/s"
 approach_at_touch = "3 nm"
+response_frequency = ["1 Hz", "100 Hz"]
+response_gain = [1.0, 1.1]
+response_phase = ["0 rad", "20 mrad"]
 [contact]
 poisson_ratio = 0.38
 radius = "area-function"
@@ -166,6 +169,9 @@ radius = "10 um"
             time_lag_s: 2e-5,
             thermal_drift_m_per_s: 5e-11,
             approach_at_touch_m: 3e-9,
+            response_frequency_hz: vec![1.0, 100.0],
+            response_gain: vec![1.0, 1.1],
+            response_phase_rad: vec![0.0, 0.02],
         };
         let found = options.corrections;
         let pairs = [
@@ -183,6 +189,9 @@ radius = "10 um"
         for (found, expected) in pairs {
             assert!((found / expected - 1.0).abs() < 1e-14, "{found} {expected}");
         }
+        assert_eq!(found.response_frequency_hz, expected.response_frequency_hz);
+        assert_eq!(found.response_gain, expected.response_gain);
+        assert_eq!(found.response_phase_rad, expected.response_phase_rad);
         let contact = options.contact.unwrap();
         assert_eq!((contact.poisson_ratio, contact.bias), (0.38, false));
         let area = Radius::AreaFunction {

@@ -282,7 +282,7 @@ fn mass_damping_stiffness_frame_and_lag_of_an_instrument_are_taken_out_from_1_to
                 mean(Quantity::LoadMean),
             )
         };
-        let (found, phase, approach, load) = read(instrument);
+        let (found, phase, approach, load) = read(instrument.clone());
         near!(found, stiffness, 1e-3, "{hz} Hz");
         below!((phase - lag).abs(), 1e-3 * lag.max(0.1), "{hz} Hz");
         near!(approach, 5e-7, 1e-3, "{hz} Hz");

@@ -95,6 +95,7 @@ impl Kept {
             line.push('\n');
             let opened = || OpenOptions::new().create(true).append(true).open(path).ok();
             if file.is_none() {
+                let _ = path.parent().map(std::fs::create_dir_all);
                 *file = opened();
             }
             let _ = file.as_mut().map(|file| file.write_all(line.as_bytes()));

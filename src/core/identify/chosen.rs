@@ -21,6 +21,16 @@ const SETTLED: f64 = 1e-3;
 /// A law with unknowns to begin with.
 type Start = (Form, Vec<Vec<f64>>);
 
+/// What a choice between laws leads to.
+enum Choice {
+    /// The series that was found before.
+    Series(Laws),
+    /// Another law, with its series, the numbers computed with it and the factors of their bands.
+    Law(Laws, Relaxation, Vec<f64>, Vec<f64>),
+    /// A law whose contact cannot be computed, or changes with every refinement of it.
+    Lost(Form),
+}
+
 /// What was found with the laws that were asked for beside its series; where another law is more likely than the series, that law in its
 /// place.
 pub(super) fn with_laws(
@@ -35,57 +45,89 @@ pub(super) fn with_laws(
         is_noise_known: found.knowledge != Knowledge::None,
         times_s: (1.0 / highest, 1.0 / lowest),
     };
+    let mut starts = starts(plan, &found, &numbers);
+    let computed: Vec<Option<f64>> = found.compared.iter().map(|c| Some(c.computed)).collect();
+    while !starts.is_empty() {
+        linearised.take_factors(&found.point, &computed, 1.0);
+        match chosen(model, linearised, &found, &numbers, &starts)? {
+            Choice::Series(laws) => {
+                found.laws = Some(laws);
+                return Ok(found);
+            }
+            Choice::Law(laws, series, exact, factors) => {
+                return Ok(found.by_law(laws, series, &exact, &factors));
+            }
+            Choice::Lost(form) => starts.retain(|(own, _)| *own != form),
+        }
+    }
+    Err(IdentifyError::NoFit(
+        "no law that was asked for has a contact that can be computed; leave `law` out for a series",
+    ))
+}
+
+/// The law that is most likely, with factors about it that stand still.
+fn chosen(
+    model: &Model<'_>,
+    linearised: &mut Linearised<'_>,
+    found: &Identified,
+    numbers: &Numbers,
+    starts: &[Start],
+) -> Result<Choice, IdentifyError> {
     // A history ends before what relaxes later; a cycle settles when all has relaxed.
-    let end_s = plan.measurements.is_history().then_some(numbers.times_s.1);
-    let starts = starts(plan, &found, &numbers);
-    let computed = found.compared.iter().map(|c| Some(c.computed));
-    linearised.take_factors(&found.point, &computed.collect::<Vec<_>>(), 1.0);
+    let end_s = linearised
+        .plan
+        .measurements
+        .is_history()
+        .then_some(numbers.times_s.1);
     let mut last = None;
     for _ in 0..ROUNDS {
         let residuals = |solid: &Solid| {
             let series = solid.clone().series_within(numbers.times_s)?;
-            let point = Point::of(&series, end_s);
-            let relative = linearised.relative(&point).into_iter();
+            let relative = linearised.relative(&Point::of(&series, end_s)).into_iter();
             let scaled = relative.zip(&linearised.noise.relative);
             Some(DVector::from_vec(
                 scaled.map(|(off, error)| off / error).collect(),
             ))
         };
-        let laws = fitted(&starts, &numbers, &residuals);
+        let laws = fitted(starts, numbers, &residuals);
         let laws = laws.ok_or(IdentifyError::NoFit("no law could be tried"))?;
-        let best = laws.best();
-        let form = best.form;
+        let form = laws.best().form;
         if is_series(form) && form.branches == found.relaxation.branches().len() {
-            found.laws = Some(laws);
-            return Ok(found);
+            return Ok(Choice::Series(laws));
         }
-        let derivatives = OfLaw {
+        let problem = OfLaw {
             form,
             times_s: numbers.times_s,
             residuals: &residuals,
-        }
-        .derivatives(&best.unknowns)
-        .ok_or(IdentifyError::NoFit("the law has no derivatives there"))?;
-        let series = laws.series();
-        let series = series.ok_or(IdentifyError::NoFit("the law has no series"))?;
+        };
+        let derivatives = problem.derivatives(&laws.best().unknowns);
+        let Some((derivatives, series)) = derivatives.zip(laws.series()) else {
+            return Ok(Choice::Lost(form));
+        };
         let point = Point::of(&series, end_s);
         let series = point.relaxation()?;
-        let exact = model.numbers_where_found(&series)?;
+        let exact = match model.numbers_where_found(&series) {
+            Err(IdentifyError::NoCycle { .. } | IdentifyError::NoHistory(_)) => {
+                return Ok(Choice::Lost(form));
+            }
+            exact => exact?,
+        };
         let change = linearised.take_factors(&point, &exact, 1.0);
         if change < SETTLED && last == Some(form) {
+            let factor = |row: DVector<f64>| laws.best().factor(&row, laws.half_width);
+            let rows = derivatives.row_iter().zip(&linearised.noise.relative);
+            let factors = rows
+                .map(|(row, error)| factor(row.transpose() * *error))
+                .collect();
             let exact: Option<Vec<f64>> = exact.into_iter().collect();
-            let exact = exact.ok_or(IdentifyError::NoFit("a cycle of the law was not found"))?;
-            let gradients = derivatives.row_iter().zip(&linearised.noise.relative);
-            let factors = gradients
-                .map(|(row, error)| best.factor(&(row.transpose() * *error), laws.half_width));
-            let factors: Vec<f64> = factors.collect();
-            return Ok(found.by_law(laws, series, &exact, &factors));
+            return Ok(match exact {
+                Some(exact) => Choice::Law(laws, series, exact, factors),
+                None => Choice::Lost(form),
+            });
         }
         last = Some(form);
     }
-    Err(IdentifyError::NoFit(
-        "the contact under the law that is most likely changes with every refinement of it; ask for `law = \"series\"`",
-    ))
+    Ok(last.map_or(Choice::Lost(starts[0].0), Choice::Lost))
 }
 
 /// Whether a form is one of those that the search for series has found.

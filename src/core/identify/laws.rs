@@ -391,9 +391,12 @@ pub(crate) fn fitted(
             times_s: numbers.times_s,
             residuals,
         };
-        let found = starts
-            .iter()
-            .filter_map(|start| minimise(&problem, start, ROUGHLY));
+        // The two starts that are nearest: the others end where these do, or farther off.
+        let left = |start| Some((problem.residuals(start)?.norm_squared(), start));
+        let mut near: Vec<(f64, &Vec<f64>)> = starts.iter().filter_map(left).collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let near = near.iter().take(2);
+        let found = near.filter_map(|(_, start)| minimise(&problem, start, ROUGHLY));
         let found = found.min_by(|a, b| a.squares().total_cmp(&b.squares()))?;
         let found: Solution<Vec<f64>> = minimise(&problem, &found.unknowns, CLOSELY)?;
         Some(Tried {

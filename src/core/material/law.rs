@@ -289,31 +289,28 @@ impl Form {
     }
 }
 
-/// Branches with a stretched exponential from the shortest to the longest time: a non-negative least squares fit on fixed times, relative
-/// to what is left of the exponential and what has been lost.
+/// Branches with a stretched exponential from a decade before the shortest to a decade after the longest time: a non-negative least squares
+/// fit on fixed times. What has relaxed before is left out, not put into the fastest branch, whose loss it would be.
 fn stretched(
     modulus_pa: f64,
     time_s: f64,
     exponent: f64,
     (shortest_s, longest_s): (f64, f64),
 ) -> Option<Vec<RelaxationBranch>> {
-    const GRID: f64 = 0.8;
-    let from = (shortest_s / BEYOND).min(time_s / BEYOND).ln();
-    let to = (longest_s * BEYOND).max(time_s * BEYOND).ln();
-    let count = ((to - from) / GRID).ceil() as usize;
-    let times: Vec<f64> = (0..=count)
-        .map(|k| (from + GRID * k as f64).exp())
-        .collect();
-    let samples: Vec<f64> = (0..2 * count)
-        .map(|k| (from + 0.5 * GRID * k as f64).exp())
-        .filter(|t| (0.5 * shortest_s..=2.0 * longest_s).contains(t))
-        .collect();
+    // The narrower the spectrum, the closer the times.
+    let grid = if exponent < 0.45 { 0.7 } else { 0.5 };
+    let (first_s, last_s) = (shortest_s / BEYOND, longest_s * BEYOND);
+    let (from, to) = ((first_s / BEYOND).ln(), (last_s * BEYOND).ln());
+    let count = ((to - from) / grid).ceil() as usize;
+    let times = (0..=count).map(|k| (from + grid * k as f64).exp());
+    let times: Vec<f64> = times.collect();
+    let samples = (0..2 * count).map(|k| (from + 0.5 * grid * k as f64).exp());
+    let samples: Vec<f64> = samples.filter(|t| (first_s..=last_s).contains(t)).collect();
     let exact = |t: f64| (-(t / time_s).powf(exponent)).exp();
-    let matrix = DMatrix::from_fn(samples.len() + 1, times.len(), |row, column| {
-        samples.get(row).map_or(1.0, |t| (-t / times[column]).exp())
+    let matrix = DMatrix::from_fn(samples.len(), times.len(), |row, column| {
+        (-samples[row] / times[column]).exp()
     });
-    let rows = samples.iter().map(|t| exact(*t)).chain([1.0]);
-    let right = DVector::from_iterator(samples.len() + 1, rows);
+    let right = DVector::from_iterator(samples.len(), samples.iter().map(|t| exact(*t)));
     let parts = nnls(&matrix, &right).ok()?;
     let branches = parts.iter().zip(times).filter(|(part, _)| **part > 0.0);
     Some(

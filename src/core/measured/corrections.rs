@@ -7,7 +7,8 @@
 //! delta = x - C_f W                 approach, the frame giving way by its compliance
 //! ```
 //!
-//! with the channel of x late by the lag, and x moved at a steady rate by temperature.
+//! with the channel of x late by the lag, times the gain and behind by the phase that it has at a frequency beside that of F, and x moved at
+//! a steady rate by temperature.
 
 use num_complex::Complex;
 use serde::{Deserialize, Serialize};
@@ -16,12 +17,13 @@ use super::Signal;
 use crate::block_with_defaults;
 use crate::cycle::Harmonics;
 use crate::quantity::Dimension;
-use crate::quantity::key::{Kind, quantity};
+use crate::quantity::block::Conflict;
+use crate::quantity::key::{Entries, Kind, number, quantity};
 
 block_with_defaults! {
     /// Contributions of the instrument to load and approach, removed from every harmonic.
-    #[derive(Copy, Serialize, Deserialize)]
-    pub struct Corrections in "instrument" {
+    #[derive(Serialize, Deserialize)]
+    pub struct Corrections in "instrument" unless in_conflict {
         /// Compliance of frame and mount: the approach is the displacement minus compliance times load.
         frame_compliance_m_per_n: f64 = 0.0 => "frame_compliance", Kind::Number(quantity(Dimension::FrameCompliance).not_negative());
         /// Moving mass between force sensor and contact.
@@ -32,6 +34,13 @@ block_with_defaults! {
         stiffness_n_per_m: f64 = 0.0 => "stiffness", Kind::Number(quantity(Dimension::Stiffness).not_negative());
         /// Delay of the approach channel relative to the load channel; negative if it is earlier.
         time_lag_s: f64 = 0.0 => "time_lag", Kind::Number(quantity(Dimension::Time));
+        /// Frequencies at which gain and phase of the approach channel were measured against a stiff specimen or another sensor, ascending; between
+        /// them both are linear in the logarithm of the frequency, outside they are those at the ends.
+        response_frequency_hz: Vec<f64> = Vec::new() => "response_frequency", Kind::Numbers(quantity(Dimension::Frequency).above_zero(), Entries::ANY);
+        /// Gain of the approach channel over that of the load channel at these frequencies.
+        response_gain: Vec<f64> = Vec::new() => "response_gain", Kind::Numbers(number("1.02").above_zero(), Entries::ANY);
+        /// Phase by which the approach channel is behind the load channel at these frequencies.
+        response_phase_rad: Vec<f64> = Vec::new() => "response_phase", Kind::Numbers(quantity(Dimension::Angle), Entries::ANY);
         /// Thermal drift rate of the approach, if it was measured.
         thermal_drift_m_per_s: f64 = 0.0 => "thermal_drift", Kind::Number(quantity(Dimension::Speed));
         /// Reading of the approach at first touch.
@@ -40,6 +49,62 @@ block_with_defaults! {
 }
 
 impl Corrections {
+    fn in_conflict(&self) -> Option<Conflict> {
+        let frequencies = &self.response_frequency_hz;
+        let conflict = |key, what: &str, help| {
+            Some(Conflict {
+                key,
+                what: what.to_owned(),
+                because: None,
+                help,
+            })
+        };
+        let is_other = |list: &[f64]| !list.is_empty() && list.len() != frequencies.len();
+        if !frequencies.is_sorted_by(|a, b| a < b) {
+            return conflict(
+                "response_frequency",
+                "frequencies that do not ascend",
+                "sort them, with their gains and phases",
+            );
+        }
+        let each = "give one for each of `response_frequency`, or none";
+        match (
+            is_other(&self.response_gain),
+            is_other(&self.response_phase_rad),
+        ) {
+            (true, _) => conflict(
+                "response_gain",
+                "other than as many gains as frequencies",
+                each,
+            ),
+            (_, true) => conflict(
+                "response_phase",
+                "other than as many phases as frequencies",
+                each,
+            ),
+            _ => None,
+        }
+    }
+
+    /// By what the channel of the approach multiplies a displacement at an angular frequency (rad/s).
+    fn response(&self, angular: f64) -> Complex<f64> {
+        let hz = angular / std::f64::consts::TAU;
+        let frequencies = &self.response_frequency_hz;
+        let after = frequencies.partition_point(|own| *own < hz);
+        let at = |list: &[f64], otherwise: f64| match (after.checked_sub(1), list.get(after)) {
+            _ if list.is_empty() => otherwise,
+            (Some(before), Some(above)) => {
+                let [low, high] = [before, after].map(|place| frequencies[place].ln());
+                let part = (hz.ln() - low) / (high - low);
+                list[before] + part * (above - list[before])
+            }
+            (Some(last), None) => list[last],
+            (None, _) => list[0],
+        };
+        let phase = at(&self.response_phase_rad, 0.0);
+        Complex::from_polar(at(&self.response_gain, 1.0), -phase)
+    }
+
     /// Takes off the drift that is known.
     pub(super) fn before(&self, signal: &mut Signal) {
         let (rate, touch) = (self.thermal_drift_m_per_s, self.approach_at_touch_m);
@@ -64,7 +129,8 @@ impl Corrections {
         };
         for (n, (force, displacement)) in raw.load_n.iter().zip(&raw.approach_m).enumerate() {
             let angular = (n + 1) as f64 * angular_rad_per_s;
-            let displacement = displacement * Complex::cis(angular * self.time_lag_s);
+            let displacement =
+                displacement * Complex::cis(angular * self.time_lag_s) / self.response(angular);
             let load = force - self.dynamic_stiffness(angular) * displacement;
             corrected.load_n.push(load);
             corrected
@@ -107,6 +173,9 @@ mod tests {
             damping_n_s_per_m: 0.02,
             stiffness_n_per_m: 150.0,
             time_lag_s: 2e-5,
+            response_frequency_hz: vec![10.0, 100.0],
+            response_gain: vec![1.0, 1.2],
+            response_phase_rad: vec![0.02, 0.1],
             ..Corrections::default()
         };
         let contact = Harmonics {
@@ -133,7 +202,10 @@ mod tests {
                 let i = Complex::i();
                 let inertia = 2e-4 * (i * omega) * (i * omega) * x;
                 raw.load_n[n] = contact.load_n[n] + inertia + 0.02 * i * omega * x + 150.0 * x;
-                raw.approach_m[n] = x * Complex::cis(-omega * 2e-5);
+                // The channel at this frequency: at the ends as it was measured there.
+                let part = ((omega / std::f64::consts::TAU).log10() - 1.0).clamp(0.0, 1.0);
+                let channel = Complex::from_polar(1.0 + 0.2 * part, -0.02 - 0.08 * part);
+                raw.approach_m[n] = x * Complex::cis(-omega * 2e-5) * channel;
             }
             let found = corrections.applied(angular, &raw);
             assert!((found.load_mean_n / contact.load_mean_n - 1.0).abs() < 1e-12);
