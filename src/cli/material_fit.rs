@@ -23,7 +23,7 @@ use crate::material::{Material, MaterialFunction, ModulusKind};
 use crate::quantity::{Dimension, parse};
 use crate::report::caption::Setting;
 use crate::report::dynamic::tables;
-use crate::report::laws::{Beside, spectrum_csv};
+use crate::report::laws::{Beside, extended, spectrum_csv};
 use crate::report::material::{fit_json, to_json};
 use crate::report::page::{self, material::About};
 use crate::report::text::Text;
@@ -210,13 +210,8 @@ pub(super) fn run(
     let mut about_fit = report::fit::text(fit.report());
     if let Some(beside) = &beside {
         about_fit.append(beside.lines(flags.modulus).into_iter().collect::<Text>());
-        if let Some(series) = beside.series_in_place() {
-            let (kind, mut origin) = (flags.modulus, material.origin);
-            (origin.fit, origin.alternatives) = (None, Vec::new());
-            material =
-                Material::from_relaxation(series, kind, poisson_ratio).map_err(Failure::input)?;
-            material.origin = origin;
-        }
+        let placed = beside.in_place_of(material, flags.modulus, poisson_ratio);
+        material = placed.map_err(Failure::input)?;
     }
     let spectrum = beside.as_ref().and_then(Beside::spectrum);
     let block = block(data, &about_fit, &material);
@@ -249,10 +244,7 @@ pub(super) fn run(
     let found = || {
         let mut value = to_json(&material).map_err(Failure::input)?;
         value["fit"] = fit_json(fit.report());
-        if let (Some(beside), Some(object)) = (&beside, value.as_object_mut()) {
-            object.extend(beside.summary());
-        }
-        Ok(value)
+        Ok(extended(value, beside.as_ref().map(Beside::summary)))
     };
     let parameters = beside.as_ref().and_then(Beside::parameters);
     let parameters = parameters.map_or_else(|| report::fit::branches(&fit), Into::into);

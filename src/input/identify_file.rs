@@ -279,17 +279,8 @@ fn laws_of(
     names: &[String],
     branches: Option<usize>,
     drive: Option<&Driven>,
-    is_attraction_sought: bool,
     (problems, place): (&Problems, &Location),
 ) -> Option<Vec<Form>> {
-    if is_attraction_sought {
-        let report = problems.at(
-            place,
-            "laws are not told apart while the attraction is sought",
-        );
-        report.help("leave this key out, or write `attraction = \"known\"`");
-        return None;
-    }
     let all = forms(names, branches, MOST_BRANCHES).into_iter();
     // Without an equilibrium modulus the mean load creeps or relaxes without end: no cycle settles.
     let is_history = matches!(drive, Some(Driven::History(_)));
@@ -305,6 +296,48 @@ fn laws_of(
     Some(all)
 }
 
+/// What of the attraction is sought; `None` where a problem was reported: without an attraction within a range, or beside keys that it leaves
+/// no room for.
+fn sought_attraction(
+    table: &mut TableReader<'_>,
+    is_attracted: bool,
+    draws_samples: bool,
+) -> Option<SoughtAttraction> {
+    let problems = table.problems();
+    let place = table.key_location(&ATTRACTION);
+    let place_of_samples = table.key_location(&SAMPLES).filter(|_| draws_samples);
+    let beside = [
+        (
+            place_of_samples,
+            "no samples are drawn while the attraction is sought",
+        ),
+        (
+            table.key_location(&LAW),
+            "laws are not told apart while the attraction is sought",
+        ),
+    ];
+    let mut beside = beside
+        .into_iter()
+        .filter_map(|(place, what)| Some((place?, what)));
+    let sought: SoughtAttraction = table.value(&ATTRACTION)?;
+    if sought == SoughtAttraction::Known {
+        return Some(sought);
+    }
+    if let Some((place, what)) = beside.next() {
+        let report = problems.at(&place, what);
+        report.help("leave this key out, or write `attraction = \"known\"`");
+        return None;
+    }
+    if let (Some(place), false) = (place, is_attracted) {
+        problems
+            .at(&place, "there is no attraction within a range to look for")
+            .because("the search goes from the work and the range of [adhesion] on")
+            .help("add `[adhesion]` with `work = \"50 mJ/m^2\"` and `range = \"10 nm\"`, or leave this key out");
+        return None;
+    }
+    Some(sought)
+}
+
 /// The `[identify]` block: measurements, and how many branches.
 fn measured_block(
     mut table: TableReader<'_>,
@@ -316,47 +349,17 @@ fn measured_block(
     let branches = table.value(&IDENTIFY_BRANCHES);
     let approach_zero = table.value(&APPROACH_ZERO);
     let place_of_zero = table.key_location(&APPROACH_ZERO);
-    let attraction = table.value(&ATTRACTION);
-    let place_of_attraction = table.key_location(&ATTRACTION);
+    let samples: Option<usize> = table.value(&SAMPLES);
+    let draws = samples.is_some_and(|samples| samples > 0);
+    let attraction = sought_attraction(&mut table, is_attracted, draws);
     let place_of_laws = table.key_location(&LAW);
     let laws: Option<Option<Vec<String>>> = table.value(&LAW);
-    let samples = table.value(&SAMPLES);
-    let place_of_samples = table.key_location(&SAMPLES);
     table.finish();
     let (approach_zero, attraction, branches) = (approach_zero?, attraction?, branches?);
-    let samples: usize = samples?;
-    if let (Some(place), false) = (place_of_samples, attraction == SoughtAttraction::Known)
-        && samples > 0
-    {
-        let report = problems.at(
-            &place,
-            "no samples are drawn while the attraction is sought",
-        );
-        report.help("leave this key out, or write `attraction = \"known\"`");
-        return None;
-    }
     let laws = match (laws?, place_of_laws) {
-        (Some(names), Some(place)) => {
-            let is_sought = attraction != SoughtAttraction::Known;
-            Some(laws_of(
-                &names,
-                branches,
-                drive,
-                is_sought,
-                (problems, &place),
-            )?)
-        }
+        (Some(names), Some(place)) => Some(laws_of(&names, branches, drive, (problems, &place))?),
         _ => None,
     };
-    if let (Some(place), false) = (place_of_attraction, is_attracted)
-        && attraction != SoughtAttraction::Known
-    {
-        problems
-            .at(&place, "there is no attraction within a range to look for")
-            .because("the search goes from the work and the range of [adhesion] on")
-            .help("add `[adhesion]` with `work = \"50 mJ/m^2\"` and `range = \"10 nm\"`, or leave this key out");
-        return None;
-    }
     if let (Some(place), Some(ApproachZero::Unknown), Some(Driven::History(_))) =
         (place_of_zero, approach_zero, drive)
     {
@@ -395,6 +398,6 @@ fn measured_block(
         attraction,
         branches,
         laws,
-        samples,
+        samples: samples?,
     })
 }

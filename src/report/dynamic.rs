@@ -13,7 +13,7 @@ use super::number::scientific;
 use crate::input::dynamic::DynamicFile;
 use crate::material::continuous::Spectrum;
 use crate::material::dynamic::{Characterisation, DynamicData, DynamicError, DynamicPoint};
-use crate::material::{Material, MaterialFunction, Relaxation};
+use crate::material::{MaterialFunction, Relaxation};
 use crate::quantity::FrequencyUnit;
 use crate::report::laws::{Beside, spectrum_csv};
 use crate::sweep::plan::resolved;
@@ -180,13 +180,9 @@ impl DynamicReport<'_> {
         // Without a Poisson ratio there is none in the text either: the series does not depend on it.
         let nu = poisson_ratio.unwrap_or(0.0);
         let mut material = self.made.material(None, nu)?;
-        match self.beside.and_then(Beside::series_in_place) {
-            Some(series) => {
-                let origin = material.origin;
-                material = Material::from_relaxation(series, self.made.kind, nu)?;
-                material.origin = origin;
-            }
-            None => material.origin.replicas = self.made.replica_materials(None, nu)?,
+        material.origin.replicas = self.made.replica_materials(None, nu)?;
+        if let Some(beside) = self.beside {
+            material = beside.in_place_of(material, self.made.kind, nu)?;
         }
         let block = match poisson_ratio {
             Some(_) => resolved::material_text(&material),

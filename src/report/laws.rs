@@ -9,7 +9,7 @@ use super::words::listed;
 use crate::identify::laws::{Estimate, FittedLaw, Laws};
 use crate::material::continuous::Spectrum;
 use crate::material::law::{Form, Law, Scale};
-use crate::material::{MaterialFunction, ModulusKind, Relaxation};
+use crate::material::{Material, MaterialError, MaterialFunction, ModulusKind, Relaxation};
 use crate::quantity::{Dimension, format_human};
 
 /// A number that was found.
@@ -134,12 +134,33 @@ impl Beside {
     }
 
     /// The series in place of the one that was fitted before; `None` where that is as good.
-    pub fn series_in_place(&self) -> Option<Relaxation> {
+    fn series_in_place(&self) -> Option<Relaxation> {
         match self {
             Self::Laws(laws) if laws.best().form.law == Law::Series => None,
             Self::Laws(laws) => laws.series(),
             Self::Spectrum(spectrum) => spectrum.series().ok(),
         }
+    }
+
+    /// The material of that series, with where it comes from, in place of one that was fitted before.
+    ///
+    /// # Errors
+    /// As [`Material::from_relaxation`].
+    pub fn in_place_of(
+        &self,
+        own: Material,
+        kind: ModulusKind,
+        nu: f64,
+    ) -> Result<Material, MaterialError> {
+        let Some(series) = self.series_in_place() else {
+            return Ok(own);
+        };
+        let mut material = Material::from_relaxation(series, kind, nu)?;
+        material.origin = own.origin;
+        // What the series that was fitted before left open is none of this one.
+        (material.origin.fit, material.origin.alternatives) = (None, Vec::new());
+        material.origin.replicas.clear();
+        Ok(material)
     }
 
     /// Parameters with their intervals, where there are any.
@@ -173,6 +194,14 @@ impl Beside {
             Self::Spectrum(spectrum) => Some(spectrum),
         }
     }
+}
+
+/// A summary with further keys, where there are any.
+pub fn extended(mut summary: Value, more: Option<Map<String, Value>>) -> Value {
+    if let (Some(object), Some(more)) = (summary.as_object_mut(), more) {
+        object.extend(more);
+    }
+    summary
 }
 
 /// `spectrum.csv`: the continuous spectrum with its band.

@@ -89,6 +89,16 @@ fn table(header: &str, rows: &[[f64; 3]], row: impl Fn(&[f64; 3]) -> [f64; 3]) -
     format!("{header}\n{}", rows.collect::<String>())
 }
 
+/// Curves from 1 on in one table, the force of each multiplied by a factor of its own.
+fn table_of_curves(count: u32, rows: &[[f64; 3]], factor: impl Fn(u32) -> f64) -> String {
+    let row = |curve: u32, [t, force_n, depth_m]: &[f64; 3]| {
+        format!("{curve},{t},{:e},{depth_m:e}\n", factor(curve) * force_n)
+    };
+    let rows = (1..=count).flat_map(|curve| rows.iter().map(move |of| (curve, of)));
+    let rows: String = rows.map(|(curve, of)| row(curve, of)).collect();
+    format!("curve,time_s,force_n,indentation_m\n{rows}")
+}
+
 /// What an identification finds is the gel, and first contact at 3 um.
 fn found_is_the_gel(place: &Place, curve: &str) {
     place.done(&format!("identify {curve}.toml --quiet --out {curve}"));
@@ -179,13 +189,7 @@ fn many_curves_are_a_table_and_one_that_is_none_is_named() {
     place.done("simulate gel.toml --quiet --out gel");
     let rows = measured(&place, "gel");
     // Two curves in a file, and a third that is flat.
-    let mut text = "curve,time_s,force_n,indentation_m\n".to_owned();
-    for curve in [1, 2, 3] {
-        for [t, force_n, depth_m] in &rows {
-            let force_n = if curve == 3 { 0.0 } else { *force_n };
-            text += &format!("{curve},{t},{force_n:e},{depth_m:e}\n");
-        }
-    }
+    let text = table_of_curves(3, &rows, |curve| if curve == 3 { 0.0 } else { 1.0 });
     place.put("map.csv", text);
     let law = "law = [\"power-law\", \"standard-solid\"]\n[material]";
     place.put(
@@ -364,12 +368,7 @@ fn curves_that_were_done_before_an_interruption_are_kept_and_the_result_is_the_s
     place.put("gel.toml", GEL);
     place.done("simulate gel.toml --quiet --out gel");
     let rows = measured(&place, "gel");
-    let mut text = "curve,time_s,force_n,indentation_m\n".to_owned();
-    for curve in 1..=24 {
-        for [t, force_n, depth_m] in &rows {
-            text += &format!("{curve},{t},{:e},{depth_m:e}\n", force_n * f64::from(curve));
-        }
-    }
+    let text = table_of_curves(24, &rows, f64::from);
     place.put("map.csv", text);
     place.put("map.toml", IDENTIFY.replace("CURVE", "map.csv"));
     let kept = place.path("map.unfinished.jsonl");

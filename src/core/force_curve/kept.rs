@@ -65,6 +65,11 @@ impl Kept {
         })
     }
 
+    /// By what the laws of a curve are found again, where they are kept.
+    pub(super) fn key(&self, common: &str, curve: &ForceCurve) -> Option<String> {
+        self.file.as_ref().map(|_| key(common, curve))
+    }
+
     /// The laws of a curve, where they are known.
     pub(super) fn get(&self, key: &str) -> Option<&Known> {
         self.known.get(key)
@@ -110,18 +115,16 @@ impl Kept {
     }
 }
 
-/// By what the laws of every curve of a plan are found again: version of the program, plan and data.
-pub(super) fn keys(plan: &CurvesPlan) -> Vec<String> {
-    let common = format!("{} {}", env!("CARGO_PKG_VERSION"), resolved_text(plan));
-    let key = |curve: &ForceCurve| {
-        let signals = [&curve.time_s, &curve.force_n, &curve.indentation_m];
-        let travel = curve.travel_m.as_ref();
-        let all = signals.into_iter().chain(travel).flatten();
-        let numbers = all
-            .chain(&curve.force_error_n)
-            .flat_map(|value| value.to_le_bytes());
-        let bytes: Vec<u8> = common.bytes().chain(numbers).collect();
-        hash_of_bytes(&bytes)
-    };
-    plan.curves.iter().map(key).collect()
+/// What the laws of all curves of a plan depend on beside their data: version of the program, and plan.
+pub(super) fn common(plan: &CurvesPlan) -> String {
+    format!("{} {}", env!("CARGO_PKG_VERSION"), resolved_text(plan))
+}
+
+/// By what the laws of a curve are found again.
+fn key(common: &str, curve: &ForceCurve) -> String {
+    let signals = [&curve.time_s, &curve.force_n, &curve.indentation_m];
+    let all = signals.into_iter().chain(&curve.travel_m).flatten();
+    let numbers = all.chain(&curve.force_error_n);
+    let numbers = numbers.flat_map(|value| value.to_le_bytes());
+    hash_of_bytes(&common.bytes().chain(numbers).collect::<Vec<u8>>())
 }

@@ -48,10 +48,12 @@ pub fn fit_all(
     interrupt: &AtomicBool,
     done: &(dyn Fn() + Sync),
 ) -> Result<Vec<Result<CurveFit, CurveError>>, IdentifyError> {
-    let curves = plan.curves.par_iter().zip(kept::keys(plan));
-    let fits = curves.map(|(curve, key)| {
-        let found = fit::fit_knowing(&plan.fit, curve, kept.get(&key), interrupt);
-        if let Ok(found) = &found {
+    let common = kept::common(plan);
+    let fits = plan.curves.par_iter().map(|curve| {
+        let key = kept.key(&common, curve);
+        let known = key.as_ref().and_then(|key| kept.get(key));
+        let found = fit::fit_knowing(&plan.fit, curve, known, interrupt);
+        if let (Ok(found), Some(key)) = (&found, key) {
             kept.put(key, found);
         }
         done();

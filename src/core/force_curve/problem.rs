@@ -10,7 +10,9 @@ use super::springs::Springs;
 use super::touch::{Nuisance, Touch, nuisances};
 use crate::identify::laws::clamped;
 use crate::material::law::{Form, Scale};
-use crate::numerics::levenberg_marquardt::{Ending, Problem, Solution, minimise};
+use crate::numerics::levenberg_marquardt::{
+    Ending, Problem, Solution, central_difference, minimise,
+};
 use crate::quantity::Dimension;
 
 const ON_THE_WAY: Ending = Ending {
@@ -224,12 +226,9 @@ impl OfForm<'_> {
         let last = unknowns.len() - 1;
         let column = |k: usize| {
             let step = if k == last { STEP_OF_CONTACT } else { STEP };
-            let at = |off: f64| {
-                let mut moved = unknowns.to_vec();
-                moved[k] += off;
+            central_difference(unknowns, k, step, &|moved| {
                 self.fitted.off(self.form, &moved)
-            };
-            Some((at(step)? - at(-step)?) / (2.0 * step))
+            })
         };
         (0..unknowns.len()).map(column).collect()
     }

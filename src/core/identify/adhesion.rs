@@ -13,7 +13,7 @@ use crate::identify::model::Model;
 use crate::identify::selection::Linearised;
 use crate::identify::series::Point;
 use crate::identify::{IdentifyError, IdentifyPlan};
-use crate::numerics::levenberg_marquardt::{Problem, Solution, minimise};
+use crate::numerics::levenberg_marquardt::{Problem, Solution, central_difference, minimise};
 
 /// How far work and range may go from where they are sought, as logarithms: a factor of a thousand.
 const FARTHEST: f64 = 6.9;
@@ -46,12 +46,7 @@ impl Problem for Joint<'_> {
 
     fn derivatives(&self, unknowns: &Vec<f64>) -> Option<DMatrix<f64>> {
         let moved = (0..unknowns.len()).into_par_iter().map(|place| {
-            let [above, below] = [STEP, -STEP].map(|step| {
-                let mut moved = unknowns.clone();
-                moved[place] += step;
-                self.residuals(&moved)
-            });
-            Some((above? - below?) / (2.0 * STEP))
+            central_difference(unknowns, place, STEP, &|moved| self.residuals(&moved))
         });
         let columns: Option<Vec<DVector<f64>>> = moved.collect();
         Some(DMatrix::from_columns(&columns?))

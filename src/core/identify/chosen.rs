@@ -39,14 +39,13 @@ pub(super) fn with_laws(
     mut found: Identified,
 ) -> Result<Identified, IdentifyError> {
     let plan = linearised.plan;
-    let (lowest, highest) = plan.measurements.window_rad_per_s();
     let numbers = Numbers {
         count: plan.measurements.data().len(),
         is_noise_known: found.knowledge != Knowledge::None,
-        times_s: (1.0 / highest, 1.0 / lowest),
+        times_s: linearised.times_s().0,
     };
     let mut starts = starts(plan, &found, &numbers);
-    let computed: Vec<Option<f64>> = found.compared.iter().map(|c| Some(c.computed)).collect();
+    let computed = found.computed();
     while !starts.is_empty() {
         linearised.take_factors(&found.point, &computed, 1.0);
         match chosen(model, linearised, &found, &numbers, &starts)? {
@@ -73,22 +72,10 @@ fn chosen(
     numbers: &Numbers,
     starts: &[Start],
 ) -> Result<Choice, IdentifyError> {
-    // A history ends before what relaxes later; a cycle settles when all has relaxed.
-    let end_s = linearised
-        .plan
-        .measurements
-        .is_history()
-        .then_some(numbers.times_s.1);
+    let (_, end_s) = linearised.times_s();
     let mut last = None;
     for _ in 0..ROUNDS {
-        let residuals = |solid: &Solid| {
-            let series = solid.clone().series_within(numbers.times_s)?;
-            let relative = linearised.relative(&Point::of(&series, end_s)).into_iter();
-            let scaled = relative.zip(&linearised.noise.relative);
-            Some(DVector::from_vec(
-                scaled.map(|(off, error)| off / error).collect(),
-            ))
-        };
+        let residuals = |solid: &Solid| linearised.of_solid(solid, None);
         let laws = fitted(starts, numbers, &residuals);
         let laws = laws.ok_or(IdentifyError::NoFit("no law could be tried"))?;
         let form = laws.best().form;

@@ -1,7 +1,6 @@
 //! Solids of data with their noise drawn anew: a parametric bootstrap (B. Efron, R. J. Tibshirani, *An Introduction to the Bootstrap*, Chapman &
 //! Hall 1993, section 6.5) on the linearised contact, with the factors of the exact model about the solid that was found.
 
-use nalgebra::DVector;
 use rayon::prelude::*;
 
 use super::identified::Identified;
@@ -29,11 +28,8 @@ pub(super) fn ensemble(
     if samples == 0 {
         return Vec::new();
     }
-    let window = linearised.plan.measurements.window_rad_per_s();
-    let times_s = (1.0 / window.1, 1.0 / window.0);
-    let end_s = (linearised.plan.measurements.is_history()).then_some(times_s.1);
-    let computed: Vec<Option<f64>> = found.compared.iter().map(|c| Some(c.computed)).collect();
-    linearised.take_factors(&Point::of(&found.relaxation, end_s), &computed, 1.0);
+    let (times_s, end_s) = linearised.times_s();
+    linearised.take_factors(&Point::of(&found.relaxation, end_s), &found.computed(), 1.0);
     let missed = found.missed();
     let of_series = |point: &Point| {
         let (law, branches) = (Law::Series, point.branches());
@@ -61,14 +57,7 @@ pub(super) fn ensemble(
             .zip(drawn)
             .map(|(off, noise)| off + noise)
             .collect();
-        let residuals = |solid: &Solid| {
-            let point = Point::of(&solid.clone().series_within(times_s)?, end_s);
-            let relative = linearised.relative(&point).into_iter();
-            let all = relative.zip(&shift).zip(&linearised.noise.relative);
-            Some(DVector::from_vec(
-                all.map(|((r, s), error)| (r - s) / error).collect(),
-            ))
-        };
+        let residuals = |solid: &Solid| linearised.of_solid(solid, Some(&shift));
         let problem = OfLaw {
             form,
             times_s,

@@ -63,8 +63,7 @@ pub fn identify(plan: &IdentifyPlan, interrupt: &AtomicBool) -> Result<Identifie
             let mut other = tried(&model, &mut linearised, most, part);
             if let Ok(near) = &other {
                 // It may be near the solution only: once more with the factors there.
-                let exact = near.compared.iter().map(|c| Some(c.computed));
-                linearised.take_factors(&near.point, &exact.collect::<Vec<_>>(), 1.0);
+                linearised.take_factors(&near.point, &near.computed(), 1.0);
                 let again = tried(&model, &mut linearised, most, part);
                 if again.as_ref().is_ok_and(|a| a.misfit() <= near.misfit()) {
                     other = again;

@@ -252,6 +252,11 @@ impl Identified {
         other.map_or(&self.point, |candidate| &candidate.point)
     }
 
+    /// The computed numbers, as the exact model gives them to the linearised contact.
+    pub(super) fn computed(&self) -> Vec<Option<f64>> {
+        self.compared.iter().map(|c| Some(c.computed)).collect()
+    }
+
     /// Logarithms of computed over measured numbers.
     pub(super) fn missed(&self) -> Vec<f64> {
         let compared = self.compared.iter();

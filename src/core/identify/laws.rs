@@ -9,12 +9,14 @@ use nalgebra::{DMatrix, DVector};
 use num_complex::Complex;
 
 use crate::identify::noise::is_missed;
-use crate::identify::uncertainty::Directions;
+use crate::identify::uncertainty::{Directions, gradients};
 use crate::identify::{ModulusBand, UNDETERMINED};
 use crate::material::Relaxation;
 use crate::material::law::{Form, Scale, Solid};
 use crate::measured::statistics::{NORMAL, student};
-use crate::numerics::levenberg_marquardt::{Ending, Problem, Solution, minimise};
+use crate::numerics::levenberg_marquardt::{
+    Ending, Problem, Solution, central_difference, minimise,
+};
 
 /// The widest that an unknown may go: a modulus of nothing, an exponent of nearly zero or one.
 const WIDEST_LOGARITHM: f64 = 80.0;
@@ -300,18 +302,9 @@ impl FittedLaw {
     fn moduli(&self, omega: f64) -> Option<[(f64, f64); 2]> {
         let own = self.ln_moduli(&self.unknowns, omega)?;
         let count = self.form.scales().count();
-        let mut gradients = [DVector::zeros(count), DVector::zeros(count)];
-        for k in 0..count {
-            let at = |off: f64| {
-                let mut moved = self.unknowns.clone();
-                moved[k] += off;
-                self.ln_moduli(&moved, omega)
-            };
-            let (above, below) = (at(STEP)?, at(-STEP)?);
-            for (part, gradient) in gradients.iter_mut().enumerate() {
-                gradient[k] = (above[part] - below[part]) / (2.0 * STEP);
-            }
-        }
+        let gradients = gradients(&self.unknowns, count, STEP, &|moved| {
+            self.ln_moduli(&moved, omega)
+        })?;
         let [of_storage, of_loss] = gradients.map(|gradient| self.directions.variance(&gradient));
         Some([(own[0], of_storage), (own[1], of_loss)])
     }
@@ -352,14 +345,8 @@ impl Problem for OfLaw<'_> {
     }
 
     fn derivatives(&self, unknowns: &Vec<f64>) -> Option<DMatrix<f64>> {
-        let column = |k: usize| {
-            let at = |off: f64| {
-                let mut moved = unknowns.clone();
-                moved[k] += off;
-                self.residuals(&moved)
-            };
-            Some((at(STEP)? - at(-STEP)?) / (2.0 * STEP))
-        };
+        let column =
+            |k: usize| central_difference(unknowns, k, STEP, &|moved| self.residuals(&moved));
         let columns: Option<Vec<DVector<f64>>> = (0..unknowns.len()).map(column).collect();
         Some(DMatrix::from_columns(&columns?))
     }

@@ -4,6 +4,7 @@
 use nalgebra::DVector;
 
 use super::laws::{Laws, Numbers, fitted};
+use super::series::Point;
 use crate::material::dynamic::DynamicPoint;
 use crate::material::dynamic::prony::PronyFit;
 use crate::material::fit::Fit;
@@ -22,22 +23,10 @@ pub fn of_moduli(points: &[DynamicPoint], fit: &PronyFit, forms: &[Form]) -> Opt
         is_noise_known: true,
         times_s: (1.0 / highest, 1.0 / lowest),
     };
-    let noise = [fit.noise.0, fit.noise.1];
-    // Of a point with errors the noise is a multiple of these.
-    let errors = |point: &DynamicPoint| match point.errors_pa {
-        Some((storage, loss)) => [storage * noise[0], loss * noise[1]],
-        None => {
-            let noise = noise.map(|noise| noise.max(LEAST_NOISE));
-            [
-                noise[0] * point.storage_modulus_pa,
-                noise[1] * point.loss_modulus_pa,
-            ]
-        }
-    };
     let residuals = |solid: &Solid| {
         let each = points.iter().flat_map(|point| {
             let modulus = solid.complex_modulus_pa(point.angular_frequency_rad_per_s);
-            let [storage, loss] = errors(point);
+            let [storage, loss] = fit.deviations_pa(point, LEAST_NOISE);
             [
                 (modulus.re - point.storage_modulus_pa) / storage,
                 (modulus.im - point.loss_modulus_pa) / loss,
@@ -93,15 +82,11 @@ fn starts(forms: &[Form], own: &Relaxation, times_s: (f64, f64)) -> Vec<(Form, V
     let others = forms.iter().filter(|form| form.law != Law::Series);
     let others = others.map(|form| (*form, form.starts(modulus_pa, times_s)));
     let series = wants_series.then(|| {
-        let ln = |value: f64| value.max(f64::MIN_POSITIVE).ln();
-        let branches = own.branches().iter();
-        let branches = branches.flat_map(|b| [ln(b.modulus_pa), ln(b.time_s)]);
-        let unknowns = [ln(own.equilibrium_modulus())].into_iter().chain(branches);
         let form = Form {
             law: Law::Series,
             branches: found,
         };
-        (form, vec![unknowns.collect()])
+        (form, vec![Point::of(own, None).0])
     });
     others.chain(series).collect()
 }

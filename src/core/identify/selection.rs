@@ -10,7 +10,10 @@ use crate::identify::model::Model;
 use crate::identify::noise::Noise;
 use crate::identify::series::{Limits, Point};
 use crate::identify::{IdentifyError, IdentifyPlan};
-use crate::numerics::levenberg_marquardt::{Ending, Problem, Solution, minimise};
+use crate::material::law::Solid;
+use crate::numerics::levenberg_marquardt::{
+    Ending, Problem, Solution, central_difference, minimise,
+};
 
 /// Step of an unknown for the derivatives of the linearised contact, which is smooth.
 const STEP: f64 = 1e-5;
@@ -125,6 +128,25 @@ impl Linearised<'_> {
         let all = self.measured().data().iter().zip(numbers);
         all.map(|(datum, (ln, factor))| ln + factor - datum.value.ln())
             .collect()
+    }
+
+    /// The times (s) that the data tell of, and behind them the time after which nothing matters: a history ends before what relaxes later, a
+    /// cycle settles when all has relaxed.
+    pub(super) fn times_s(&self) -> ((f64, f64), Option<f64>) {
+        let (lowest, highest) = self.measured().window_rad_per_s();
+        let times_s = (1.0 / highest, 1.0 / lowest);
+        (times_s, self.measured().is_history().then_some(times_s.1))
+    }
+
+    /// Logarithms of computed over measured numbers of a solid, less a shift where there is one, each in its standard deviation.
+    pub(super) fn of_solid(&self, solid: &Solid, shift: Option<&[f64]>) -> Option<DVector<f64>> {
+        let (times_s, end_s) = self.times_s();
+        let point = Point::of(&solid.clone().series_within(times_s)?, end_s);
+        let mut off = DVector::from_vec(self.relative(&point));
+        if let Some(shift) = shift {
+            off -= DVector::from_column_slice(shift);
+        }
+        Some(off.component_div(&DVector::from_column_slice(&self.noise.relative)))
     }
 
     /// Residuals from logarithms of computed over measured numbers, each in its standard deviation, and those that keep the times of a
@@ -292,11 +314,8 @@ impl Problem for Linearised<'_> {
     }
 
     fn derivatives(&self, point: &Point) -> Option<DMatrix<f64>> {
-        let column = |place: usize| {
-            let [above, below] =
-                [STEP, -STEP].map(|step| self.residuals(&point.moved(place, step)));
-            Some((above? - below?) / (2.0 * STEP))
-        };
+        let residuals = |moved| self.residuals(&Point(moved));
+        let column = |place: usize| central_difference(&point.0, place, STEP, &residuals);
         let columns: Option<Vec<_>> = (0..point.0.len()).map(column).collect();
         Some(DMatrix::from_columns(&columns?))
     }

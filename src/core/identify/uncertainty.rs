@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector, SVD};
 
 use crate::identify::series::Point;
+use crate::numerics::levenberg_marquardt::central_difference;
 
 /// Singular values below this part of the largest count as none: what they stand for is not in the data at all.
 const NONE: f64 = 1e-9;
@@ -88,22 +89,31 @@ impl Directions {
     }
 }
 
+/// Gradients of two functions by the first so many unknowns, by central differences; `None` where there is no value.
+pub(crate) fn gradients(
+    unknowns: &[f64],
+    count: usize,
+    step: f64,
+    both: &impl Fn(Vec<f64>) -> Option<[f64; 2]>,
+) -> Option<[DVector<f64>; 2]> {
+    let both = |moved| both(moved).map(|both| DVector::from_column_slice(&both));
+    let columns = (0..count).map(|place| central_difference(unknowns, place, step, &both));
+    let columns: Vec<DVector<f64>> = columns.collect::<Option<_>>()?;
+    Some([0, 1].map(|part| DVector::from_fn(count, |place, _| columns[place][part])))
+}
+
 /// Logarithms of storage and loss modulus (Pa), and their gradients.
 pub(super) fn moduli(point: &Point, angular_frequency_rad_per_s: f64) -> [(f64, DVector<f64>); 2] {
     let ln = |point: &Point| {
         let modulus = point.complex_modulus(angular_frequency_rad_per_s);
         [modulus.re, modulus.im].map(|part| part.max(f64::MIN_POSITIVE).ln())
     };
+    let of = |moved| Some(ln(&Point(moved)));
     let count = point.0.len();
-    let mut gradients = [DVector::zeros(count), DVector::zeros(count)];
-    for place in 0..count {
-        let [above, below] = [STEP, -STEP].map(|step| ln(&point.moved(place, step)));
-        for (part, gradient) in gradients.iter_mut().enumerate() {
-            gradient[place] = (above[part] - below[part]) / (2.0 * STEP);
-        }
-    }
+    let gradients = gradients(&point.0, count, STEP, &of);
+    let [of_storage, of_loss] =
+        gradients.unwrap_or_else(|| [(); 2].map(|()| DVector::zeros(count)));
     let [storage, loss] = ln(point);
-    let [of_storage, of_loss] = gradients;
     [(storage, of_storage), (loss, of_loss)]
 }
 

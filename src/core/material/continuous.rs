@@ -22,7 +22,9 @@ use super::fit::Fit;
 use super::relaxation::{Relaxation, RelaxationBranch};
 use super::tabulated::Tabulated;
 use super::{MaterialError, MaterialFunction};
-use crate::numerics::levenberg_marquardt::{Ending, Problem, Solution, minimise};
+use crate::numerics::levenberg_marquardt::{
+    Ending, Problem, Solution, central_difference, minimise,
+};
 
 /// Points of the grid per decade of the relaxation time, and how many decades it goes beyond the data at both ends.
 const PER_DECADE: f64 = 5.0;
@@ -103,31 +105,21 @@ fn step() -> f64 {
 pub fn of_moduli(points: &[DynamicPoint], fit: &PronyFit) -> Option<Spectrum> {
     let (lowest, highest) = fit.window_rad_per_s;
     let times_s = grid((1.0 / highest, 1.0 / lowest));
-    // Of a point with errors the noise is a multiple of these.
-    let sigma = |noise: f64, error: Option<f64>, value: f64| match error {
-        Some(error) => noise * error,
-        None => noise.max(LEAST_NOISE) * value,
-    };
     let step = step();
     let mut rows = Vec::with_capacity(2 * points.len());
     for point in points {
         let omega = point.angular_frequency_rad_per_s;
-        let errors = point.errors_pa.unzip();
-        for (is_loss, value, noise, error) in [
-            (false, point.storage_modulus_pa, fit.noise.0, errors.0),
-            (true, point.loss_modulus_pa, fit.noise.1, errors.1),
-        ] {
+        let deviations_pa = fit.deviations_pa(point, LEAST_NOISE);
+        let values = [point.storage_modulus_pa, point.loss_modulus_pa];
+        for (part, (value, deviation_pa)) in values.into_iter().zip(deviations_pa).enumerate() {
+            let is_loss = part == 1;
             let kernel = times_s.iter().map(|time_s| {
                 let x = omega * time_s;
                 let loss = 1.0 / (x + 1.0 / x);
                 step * if is_loss { loss } else { x * loss }
             });
             let constant = if is_loss { 0.0 } else { 1.0 };
-            rows.push((
-                kernel.chain([constant]).collect(),
-                value,
-                sigma(noise, error, value),
-            ));
+            rows.push((kernel.chain([constant]).collect(), value, deviation_pa));
         }
     }
     found(
@@ -242,14 +234,8 @@ impl Data {
             }
             return Some(derivatives);
         }
-        let column = |place: usize| {
-            let at = |off: f64| {
-                let mut moved = unknowns.to_vec();
-                moved[place] += off;
-                self.residuals(&moved)
-            };
-            Some((at(STEP)? - at(-STEP)?) / (2.0 * STEP))
-        };
+        let residuals = |moved: Vec<f64>| self.residuals(&moved);
+        let column = |place: usize| central_difference(unknowns, place, STEP, &residuals);
         let columns: Option<Vec<DVector<f64>>> =
             (0..unknowns.len()).into_par_iter().map(column).collect();
         Some(DMatrix::from_columns(&columns?))

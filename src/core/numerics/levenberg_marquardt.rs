@@ -17,6 +17,21 @@ pub trait Problem {
     fn clamp(&self, place: usize, value: f64) -> f64;
 }
 
+/// A column of derivatives, by the difference of the residuals this step of an unknown to either side.
+pub fn central_difference(
+    unknowns: &[f64],
+    place: usize,
+    step: f64,
+    residuals: &impl Fn(Vec<f64>) -> Option<DVector<f64>>,
+) -> Option<DVector<f64>> {
+    let at = |off: f64| {
+        let mut moved = unknowns.to_vec();
+        moved[place] += off;
+        residuals(moved)
+    };
+    Some((at(step)? - at(-step)?) / (2.0 * step))
+}
+
 /// When it ends.
 #[derive(Debug, Clone, Copy)]
 pub struct Ending {

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use super::DynamicReport;
 use super::tables::celsius;
 use crate::material::dynamic::shift_law::{Arrhenius, ShiftLaw, Wlf};
+use crate::report::laws::{Beside, extended};
 
 /// The summary as an object; what is undefined is null.
 pub fn summary(report: &DynamicReport<'_>) -> Value {
@@ -19,7 +20,7 @@ pub fn summary(report: &DynamicReport<'_>) -> Value {
         ShiftLaw::Wlf(_) => Wlf::NAME,
         ShiftLaw::Arrhenius(_) => Arrhenius::NAME,
     });
-    let mut summary = json!({
+    let summary = json!({
         "files": source.files,
         "format": source.format,
         "format_found_by": source.how,
@@ -47,10 +48,7 @@ pub fn summary(report: &DynamicReport<'_>) -> Value {
         "program": env!("CARGO_PKG_NAME"),
         "program_version": env!("CARGO_PKG_VERSION"),
     });
-    if let (Some(beside), Some(object)) = (beside, summary.as_object_mut()) {
-        object.extend(beside.summary());
-    }
-    summary
+    extended(summary, beside.map(Beside::summary))
 }
 
 fn wlf(law: &Wlf) -> Value {

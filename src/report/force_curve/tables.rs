@@ -1,7 +1,7 @@
 //! The tables of force curves: a row for every curve, the points of the fits, the moduli with their bands, the ensemble.
 
 use super::{CurvesReport, Found};
-use crate::report::identify::tables::{COLUMNS, MODULI, cells_of, with_ends};
+use crate::report::identify::tables::{COLUMNS, MODULI, SAMPLED, cells_of, sampled, with_ends};
 use crate::report::table::{Cell, cells, csv};
 
 /// `curves.csv`: a row for every curve.
@@ -78,35 +78,16 @@ pub fn points(report: &CurvesReport<'_>) -> Vec<u8> {
 
 /// `ensemble.csv`: the moduli of every sample, at both ends of the window and in the middle.
 pub fn ensemble(report: &CurvesReport<'_>) -> Vec<u8> {
-    let columns = [
-        "curve",
-        "sample",
-        "law",
-        "contact_point_m",
-        "angular_frequency_rad_per_s",
-        "storage_modulus_pa",
-        "loss_modulus_pa",
-    ];
-    let rows = report.found().flat_map(|found| {
-        let Found { curve, fit, .. } = found;
-        let (low, high) = fit.window_rad_per_s;
+    let before = ["curve", "sample", "law", "contact_point_m"];
+    let rows = report.found().flat_map(|Found { curve, fit, .. }| {
         let samples = fit.ensemble.iter().enumerate();
-        samples.flat_map(move |(number, (drawn, contact_point_m))| {
-            [low, found.middle(), high].into_iter().map(move |omega| {
-                let modulus = drawn.complex_modulus_pa(omega);
-                cells![
-                    curve.name.clone(),
-                    number + 1,
-                    drawn.form.in_words(),
-                    *contact_point_m,
-                    omega,
-                    modulus.map(|modulus| modulus.re),
-                    modulus.map(|modulus| modulus.im),
-                ]
-            })
+        samples.flat_map(|(number, (drawn, contact_point_m))| {
+            let law = drawn.form.in_words();
+            let before = cells![curve.name.clone(), number + 1, law, *contact_point_m];
+            sampled(&before, drawn, fit.window_rad_per_s)
         })
     });
-    csv(&columns, rows)
+    csv(&[&before[..], &SAMPLED].concat(), rows)
 }
 
 /// `moduli.csv`: E' and E'' with their 95 % bands, over the curve and a little beyond; of several curves each by its name.

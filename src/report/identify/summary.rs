@@ -44,7 +44,7 @@ pub fn summary(report: &IdentifyReport<'_>) -> Value {
     let read = &report.plan.columns;
     let set_aside = read.set_aside.iter();
     let set_aside = set_aside.map(|(column, why)| json!({ "column": column, "reason": why }));
-    let mut summary = json!({
+    let summary = json!({
         "title": report.plan.title,
         "of": if measured.is_history() { "history" } else { "cycles" },
         "numbers": found.compared.len(),
@@ -83,10 +83,7 @@ pub fn summary(report: &IdentifyReport<'_>) -> Value {
         "program": env!("CARGO_PKG_NAME"),
         "program_version": env!("CARGO_PKG_VERSION"),
     });
-    if let (Some(laws), Some(object)) = (&found.laws, summary.as_object_mut()) {
-        object.extend(laws::summary(laws));
-    }
-    summary
+    laws::extended(summary, found.laws.as_ref().map(laws::summary))
 }
 
 /// The number that is missed by the most of its errors.

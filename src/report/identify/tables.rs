@@ -4,6 +4,7 @@ use serde_json::{Map, Value};
 
 use super::IdentifyReport;
 use crate::identify::ModulusBand;
+use crate::identify::laws::Drawn;
 use crate::report::table::{Cell, cells, csv};
 
 /// Points of the moduli over a decade, and how far beyond the data they go.
@@ -130,28 +131,33 @@ pub(in crate::report) fn over((lowest, highest): (f64, f64)) -> Vec<f64> {
 
 /// `ensemble.csv`: the moduli of every sample, at both ends of the window and in the middle.
 pub fn ensemble(report: &IdentifyReport<'_>) -> Vec<u8> {
-    let (low, high) = report.found.window_rad_per_s;
-    let columns = [
-        "sample",
-        "law",
-        "angular_frequency_rad_per_s",
-        "storage_modulus_pa",
-        "loss_modulus_pa",
-    ];
+    let window = report.found.window_rad_per_s;
     let samples = report.found.ensemble.iter().enumerate();
     let rows = samples.flat_map(|(number, drawn)| {
-        [low, (low * high).sqrt(), high]
-            .into_iter()
-            .map(move |omega| {
-                let modulus = drawn.complex_modulus_pa(omega);
-                cells![
-                    number + 1,
-                    drawn.form.in_words(),
-                    omega,
-                    modulus.map(|modulus| modulus.re),
-                    modulus.map(|modulus| modulus.im),
-                ]
-            })
+        let before = cells![number + 1, drawn.form.in_words()];
+        sampled(&before, drawn, window)
     });
-    csv(&columns, rows)
+    csv(&[&["sample", "law"][..], &SAMPLED].concat(), rows)
+}
+
+/// A frequency, and the moduli of a sample there.
+pub(in crate::report) const SAMPLED: [&str; 3] = [
+    "angular_frequency_rad_per_s",
+    "storage_modulus_pa",
+    "loss_modulus_pa",
+];
+
+/// The rows of a sample behind some cells: [`SAMPLED`] at both ends of the window and in the middle.
+pub(in crate::report) fn sampled(
+    before: &[Cell],
+    drawn: &Drawn,
+    (low, high): (f64, f64),
+) -> Vec<Vec<Cell>> {
+    let row = |omega: f64| {
+        let modulus = drawn.complex_modulus_pa(omega);
+        let moduli = modulus.map(|modulus| [modulus.re, modulus.im]);
+        let values = [Some(omega), moduli.map(|m| m[0]), moduli.map(|m| m[1])];
+        [before, &values.map(Cell::from)].concat()
+    };
+    [low, (low * high).sqrt(), high].map(row).to_vec()
 }

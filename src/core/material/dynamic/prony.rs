@@ -71,6 +71,19 @@ pub struct PronyFit {
     pub kramers_kronig: Option<f64>,
 }
 
+impl PronyFit {
+    /// Standard deviations (Pa) of both moduli of a point: a multiple of its errors where it has some, otherwise a part of the moduli, of which
+    /// less than `least` is not believed.
+    pub(crate) fn deviations_pa(&self, point: &DynamicPoint, least: f64) -> [f64; 2] {
+        let noise = [self.noise.0, self.noise.1];
+        let sizes = match point.errors_pa {
+            Some((storage, loss)) => return [noise[0] * storage, noise[1] * loss],
+            None => [point.storage_modulus_pa, point.loss_modulus_pa],
+        };
+        [0, 1].map(|part| noise[part].max(least) * sizes[part])
+    }
+}
+
 /// Why no series was fitted.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
