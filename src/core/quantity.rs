@@ -88,6 +88,10 @@ dimensions! {
     FrameCompliance: "a frame compliance", "m/N", "0.5 um/N", (0, 0);
     /// N s/m.
     Damping: "a damping", "N s/m", "0.02 N s/m", (0, 0);
+    /// V.
+    Voltage: "a voltage", "V", "0.2 V", (-15, 0);
+    /// m/V.
+    Sensitivity: "a deflection sensitivity", "m/V", "50 nm/V", (0, 0);
     /// m/s.
     Speed: "a speed", "m/s", "0.05 nm/s", (0, 0);
 }
@@ -125,8 +129,8 @@ impl fmt::Display for Dimension {
 /// Reads a number with a unit, such as `10 mm`, `1973 MPa`, `1e-4 1/MPa`, `2 GPa s` or `90 deg`,
 /// and gives it in the SI unit of the dimension.
 ///
-/// A unit is a product or quotient of m, g, s, rad, N, Pa, J, Hz (with any SI prefix from f to T),
-/// Å, min, h, d, deg (or °), K and °C (or degC), with exponents: `N/mm^2` is as good as `MPa`. The blank before the
+/// A unit is a product or quotient of m, g, s, rad, N, Pa, J, Hz, K, V (with any SI prefix from f to T),
+/// Å, min, h, d, deg (or °) and °C (or degC), with exponents: `N/mm^2` is as good as `MPa`. The blank before the
 /// unit may be missing; both micro signs, `u`, superscripts and the Unicode minus are understood.
 ///
 /// # Errors
@@ -344,7 +348,7 @@ fn no_number(text: &str) -> QuantityProblem {
 
 /// What a quantity with these exponents is, with its article.
 fn describe(exponents: Exponents) -> String {
-    const INVERSE_TIME: Exponents = Exponents([0, 0, -1, 0, 0, 0]);
+    const INVERSE_TIME: Exponents = Exponents([0, 0, -1, 0, 0, 0, 0]);
     let mut all = Dimension::ALL.into_iter();
     match all.find(|dimension| dimension.exponents() == exponents) {
         Some(known) => known.to_string(),

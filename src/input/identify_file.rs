@@ -26,9 +26,10 @@ use crate::identify::resolved::{
 use crate::identify::{
     ApproachZero, Driven, IdentifyPlan, MOST_BRANCHES, Sought, SoughtAttraction,
 };
-use crate::indenter::Indenter;
+use crate::indenter::{Axisymmetric, Indenter};
 use crate::material::law::Form;
 use crate::material::{Compressibility, Relaxation};
+use crate::quantity::key::Key;
 use crate::sweep::plan::adhesion::AdhesionModel;
 use crate::sweep::plan::contact::ContactPlan;
 
@@ -107,7 +108,20 @@ fn curves_plan(
     let places = table.places_in(CURVE.name);
     let laws: Option<Option<Vec<String>>> = table.value(&LAW);
     let samples = table.value(&SAMPLES);
+    let adhesion = bodies.as_ref().and_then(Bodies::adhesion);
+    let attraction = sought_attraction(&mut table, adhesion.is_some(), &[]);
     table.finish();
+    let (bodies, indenter, compressibility) = (bodies?, indenter?, compressibility?);
+    let contact = ContactPlan {
+        layer: bodies.layer,
+        adhesion,
+        indenter,
+        material: Sought {
+            compressibility,
+            indenter_material: bodies.indenter_material,
+        },
+    };
+    can_be_fitted(root, &contact)?;
     let (probe, files, branches) = (probe?, files?, branches?);
     let laws = laws?.unwrap_or_else(|| vec!["auto".to_owned()]);
     let (mut curves, mut names) = (Vec::new(), Vec::new());
@@ -125,9 +139,8 @@ fn curves_plan(
     Some(CurvesPlan {
         title: title?,
         fit: CurvePlan {
-            indenter: indenter?,
-            compressibility: compressibility?,
-            indenter_material: bodies?.indenter_material,
+            contact,
+            attraction: attraction?,
             forms: forms(&laws, branches, MOST_CHOSEN),
             probe,
             samples: samples?,
@@ -139,17 +152,51 @@ fn curves_plan(
     })
 }
 
+/// Refuses contacts whose force curves are not computed; `None` where one was.
+fn can_be_fitted(root: &mut TableReader<'_>, contact: &ContactPlan<Sought>) -> Option<()> {
+    let problems = root.problems();
+    let mut refused = |key: &Key, what: &str, because: &str, help: &str| {
+        let place = root.key_location(key)?;
+        problems.at(&place, what).because(because).help(help);
+        None
+    };
+    let of_poisson_ratio = contact.material.compressibility.poisson_ratio().is_some();
+    let profile = contact.indenter.axisymmetric();
+    match (&contact.layer, &contact.adhesion) {
+        (Some(_), Some(_)) => refused(
+            &keys::ADHESION,
+            "an attraction beside a layer",
+            "the springs of an attraction are those of a half-space",
+            "remove `[adhesion]`, or `[layer]` where the contact is far smaller than the layer is thick",
+        ),
+        (Some(_), None) if !of_poisson_ratio => refused(
+            &keys::LAYER,
+            "a layer of a material with a bulk modulus",
+            "a layer is computed with a Poisson ratio that does not depend on time",
+            "write `poisson_ratio` in place of `bulk_modulus`",
+        ),
+        (None, Some(adhesion)) if adhesion.model == AdhesionModel::Dmt => refused(
+            &keys::ADHESION,
+            "a constant pull beside force curves",
+            "it is a limit of `maugis`, which costs no more here",
+            "leave out `model`, and give the range of the attraction",
+        ),
+        (None, Some(_)) if profile.and_then(Axisymmetric::contact_limit_m).is_some() => refused(
+            &keys::ADHESION,
+            "an attraction under an indenter with a rim",
+            "an attraction moves the edge of the contact, and that of this indenter stays where it is",
+            "remove `[adhesion]`",
+        ),
+        _ => Some(()),
+    }
+}
+
 /// Refuses tables that say nothing of force curves.
 fn refuse_beside_curves(root: &mut TableReader<'_>) {
     for (key, because) in [
         (
             &MEASURED_DRIVE,
             "a force curve prescribes its own indentation",
-        ),
-        (&keys::LAYER, "force curves are of half-spaces"),
-        (
-            &keys::ADHESION,
-            "force curves are fitted without attraction",
         ),
         (&MODEL_CYCLE, "a force curve has no cycles"),
         (&keys::SOLVER, "springs and steps follow from the curve"),
@@ -301,30 +348,17 @@ fn laws_of(
 fn sought_attraction(
     table: &mut TableReader<'_>,
     is_attracted: bool,
-    draws_samples: bool,
+    beside: &[(Option<Location>, &str)],
 ) -> Option<SoughtAttraction> {
     let problems = table.problems();
     let place = table.key_location(&ATTRACTION);
-    let place_of_samples = table.key_location(&SAMPLES).filter(|_| draws_samples);
-    let beside = [
-        (
-            place_of_samples,
-            "no samples are drawn while the attraction is sought",
-        ),
-        (
-            table.key_location(&LAW),
-            "laws are not told apart while the attraction is sought",
-        ),
-    ];
-    let mut beside = beside
-        .into_iter()
-        .filter_map(|(place, what)| Some((place?, what)));
     let sought: SoughtAttraction = table.value(&ATTRACTION)?;
     if sought == SoughtAttraction::Known {
         return Some(sought);
     }
+    let mut beside = (beside.iter()).filter_map(|(place, what)| Some((place.as_ref()?, *what)));
     if let Some((place, what)) = beside.next() {
-        let report = problems.at(&place, what);
+        let report = problems.at(place, what);
         report.help("leave this key out, or write `attraction = \"known\"`");
         return None;
     }
@@ -351,7 +385,17 @@ fn measured_block(
     let place_of_zero = table.key_location(&APPROACH_ZERO);
     let samples: Option<usize> = table.value(&SAMPLES);
     let draws = samples.is_some_and(|samples| samples > 0);
-    let attraction = sought_attraction(&mut table, is_attracted, draws);
+    let beside = [
+        (
+            table.key_location(&SAMPLES).filter(|_| draws),
+            "no samples are drawn while the attraction is sought",
+        ),
+        (
+            table.key_location(&LAW),
+            "laws are not told apart while the attraction is sought",
+        ),
+    ];
+    let attraction = sought_attraction(&mut table, is_attracted, &beside);
     let place_of_laws = table.key_location(&LAW);
     let laws: Option<Option<Vec<String>>> = table.value(&LAW);
     table.finish();

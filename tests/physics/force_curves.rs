@@ -3,11 +3,16 @@
 //!
 //! `CURVES=100 SEED=9 cargo test --release --test physics force_curves -- --nocapture` tries as many as the guide on validation quotes.
 
+use contact_dma::contact::half_space::layer::Base;
 use contact_dma::force_curve::resolved::Probe;
 use contact_dma::force_curve::{CurveFit, CurvePlan, ForceCurve, fit};
 use contact_dma::identify::laws::Estimate;
+use contact_dma::identify::{Sought, SoughtAttraction};
 use contact_dma::material::fractional::Fractional;
 use contact_dma::material::law::{Form, Law};
+use contact_dma::sweep::plan::adhesion::AdhesionPlan;
+use contact_dma::sweep::plan::contact::ContactPlan;
+use contact_dma::sweep::plan::layer::LayerPlan;
 
 use crate::prelude::*;
 
@@ -58,6 +63,16 @@ impl Motion {
 
     /// Loads of the springs engine while the indenter is below the surface.
     fn loads(&self, material: Material, indenter: Arc<dyn Indenter>) -> Vec<HistoryRow> {
+        self.loads_of(material, indenter, |_| ())
+    }
+
+    /// Loads of a simulation with these changes; from far above the surface on, where it attracts.
+    fn loads_of(
+        &self,
+        material: Material,
+        indenter: Arc<dyn Indenter>,
+        changes: impl FnOnce(&mut ScenarioPlan),
+    ) -> Vec<HistoryRow> {
         let to = |to: f64| Segment::Ramp {
             to,
             duration_s: self.ramp_s,
@@ -71,14 +86,41 @@ impl Motion {
             (self.hold_s > 0.0).then_some(hold),
             Some(to(0.0)),
         ];
-        let drive = SegmentedDrive::new(Control::Approach, all.into_iter().flatten().collect());
-        let mut plan = ScenarioPlan::new(material, indenter, drive.unwrap());
+        let contact: Vec<Segment> = all.into_iter().flatten().collect();
+        let drive = |all| SegmentedDrive::new(Control::Approach, all).unwrap();
+        let mut plan = ScenarioPlan::new(material, indenter, drive(contact.clone()));
         plan.output.error_bars = false;
         plan.step_s = Some(self.ramp_s / 400.0);
+        changes(&mut plan);
+        let away_s = 1e-6 * self.ramp_s;
+        let before_s = self.before_m / self.speed();
+        let is_attracted = plan.contact.adhesion.is_some();
+        if is_attracted {
+            let apart = |duration_s| Segment::Ramp {
+                to: -self.before_m,
+                duration_s,
+            };
+            let touching = Segment::Ramp {
+                to: 0.0,
+                duration_s: before_s,
+            };
+            let away = [
+                Segment::Step {
+                    to: -self.before_m,
+                    duration_s: away_s,
+                },
+                touching,
+            ];
+            let all = away.into_iter().chain(contact).chain([apart(before_s)]);
+            plan.drive = drive(all.collect());
+        }
         let outcome = Simulation::new(plan)
             .unwrap()
             .run(&AtomicBool::new(false), &|_, _| {});
-        outcome.rows
+        let mut rows = outcome.rows;
+        let touched_s = if is_attracted { away_s + before_s } else { 0.0 };
+        rows.iter_mut().for_each(|row| row.time_s -= touched_s);
+        rows
     }
 }
 
@@ -128,6 +170,21 @@ fn indenter(random: &mut Random) -> Arc<dyn Indenter> {
     match random.unit() < 0.6 {
         true => Arc::new(ball(2.5e-6)),
         false => Arc::new(Cone::new(random.between(55.0, 75.0).to_radians()).unwrap()),
+    }
+}
+
+/// On a half-space of Poisson ratio 1/2, without attraction.
+fn plan(indenter: Arc<dyn Indenter>) -> CurvePlan {
+    let sought = Sought {
+        compressibility: 0.5.into(),
+        indenter_material: None,
+    };
+    CurvePlan {
+        contact: ContactPlan::new(sought, indenter),
+        attraction: SoughtAttraction::Known,
+        forms: Vec::new(),
+        probe: Probe::default(),
+        samples: 0,
     }
 }
 
@@ -206,12 +263,8 @@ fn judge(kind: &str, body: fn(&mut Random, &Motion) -> (Truth, Material)) -> Vec
         let rows = motion.loads(material, Arc::clone(&indenter));
         let made = made(&mut random, &motion, &rows);
         let plan = CurvePlan {
-            indenter,
-            compressibility: 0.5.into(),
-            indenter_material: None,
             forms: Form::all(4),
-            probe: Probe::default(),
-            samples: 0,
+            ..plan(indenter)
         };
         let found = fit(&plan, &made.curve, &AtomicBool::new(false)).unwrap();
         let counts = inside(&found, &truth, made.contact_point_m);
@@ -274,12 +327,8 @@ fn a_curve_without_noise_gives_the_solid_back() {
     let times = made.curve.time_s.iter();
     made.curve.force_n = times.map(|t| load_n(&rows, t - before_s)).collect();
     let plan = CurvePlan {
-        indenter: Arc::new(ball(2.5e-6)),
-        compressibility: 0.5.into(),
-        indenter_material: None,
         forms: Form::all(1),
-        probe: Probe::default(),
-        samples: 0,
+        ..plan(Arc::new(ball(2.5e-6)))
     };
     let found = fit(&plan, &made.curve, &AtomicBool::new(false)).unwrap();
     let law = found.laws.best();
@@ -291,4 +340,180 @@ fn a_curve_without_noise_gives_the_solid_back() {
         );
     }
     assert!((found.contact_point_m.value - made.contact_point_m).abs() < 2e-3 * motion.depth_m);
+}
+
+/// A sphere that the surface attracts as strongly as that moves the pull-off: its work of adhesion is found with the law, from another one on.
+struct Pulled {
+    found: CurveFit,
+    moduli: (usize, usize),
+    is_contact_inside: bool,
+    is_work_inside: bool,
+}
+
+fn pulled(number: u64, seed: u64, forms: &[Form]) -> Pulled {
+    let radius_m = 2.5e-6_f64;
+    let mut random = Random(seed.wrapping_mul(1_000_003) + number);
+    let motion = Motion::random(&mut random);
+    let (pa, above) = (random.power_of_ten(2.5, 5.0), random.between(0.3, 10.0));
+    let time_s = random.between_logarithms(0.1 * motion.ramp_s, motion.contact_s());
+    let branch = RelaxationBranch {
+        modulus_pa: pa * above,
+        time_s,
+    };
+    let series = Relaxation::new(pa, vec![branch]).unwrap();
+    let material = Material::from_relaxation(series.clone(), ModulusKind::Longitudinal, 0.5);
+    let truth: Truth = Box::new(move |omega| series.complex_modulus(omega));
+    let stiff_pa = truth(1.0 / motion.ramp_s).re / 0.75;
+    let elastic_n = 4.0 / 3.0 * stiff_pa * radius_m.sqrt() * motion.depth_m.powf(1.5);
+    let work = random.between(0.05, 0.4) * elastic_n / (1.5 * PI * radius_m);
+    let tabor = random.power_of_ten(-0.3, 0.7);
+    let range_m = (radius_m * (work / stiff_pa).powi(2)).cbrt() / tabor;
+    let adhesion = AdhesionPlan {
+        range_m: Some(range_m),
+        ..AdhesionPlan::of_work(work)
+    };
+    let indenter: Arc<dyn Indenter> = Arc::new(ball(radius_m));
+    let rows = motion.loads_of(material.unwrap(), Arc::clone(&indenter), |plan| {
+        plan.contact.adhesion = Some(adhesion);
+        plan.solver.springs = 3000;
+        plan.step_s = Some(motion.ramp_s / 1200.0);
+    });
+    let made = made(&mut random, &motion, &rows);
+    let mut plan = CurvePlan {
+        forms: forms.to_vec(),
+        attraction: SoughtAttraction::Work,
+        ..plan(indenter)
+    };
+    plan.contact.adhesion = Some(AdhesionPlan {
+        work_j_per_m2: work * random.power_of_ten(-0.3, 0.3),
+        ..adhesion
+    });
+    let found = fit(&plan, &made.curve, &AtomicBool::new(false)).unwrap();
+    let (inside, of, is_contact_inside) = inside(&found, &truth, made.contact_point_m);
+    let Estimate { low, high, .. } = found.attraction[0];
+    Pulled {
+        found,
+        moduli: (inside, of),
+        is_contact_inside,
+        is_work_inside: low <= work && work <= high,
+    }
+}
+
+#[test]
+fn the_work_of_adhesion_and_the_moduli_of_attracted_curves_lie_in_their_bands() {
+    let of = |name| std::env::var(name).ok().and_then(|text| text.parse().ok());
+    let (curves, seed) = (of("CURVES").unwrap_or(6_u64), of("SEED").unwrap_or(71));
+    let standard_solid = [Form {
+        law: Law::StandardSolid,
+        branches: 1,
+    }];
+    let all = (0..curves).into_par_iter();
+    let all: Vec<Pulled> = all.map(|k| pulled(k, seed, &standard_solid)).collect();
+    let count = |of: fn(&Pulled) -> usize| all.iter().map(of).sum::<usize>();
+    let (moduli, of_moduli) = (count(|p| p.moduli.0), count(|p| p.moduli.1));
+    let contacts = count(|p| usize::from(p.is_contact_inside));
+    let works = count(|p| usize::from(p.is_work_inside));
+    let misfit = all
+        .iter()
+        .map(|p| p.found.laws.reduced_chi_squared)
+        .sum::<f64>()
+        / curves as f64;
+    println!(
+        "attracted: {moduli} of {of_moduli} moduli, {contacts} contact points and {works} works of adhesion of {curves}; chi squared {misfit:.2}"
+    );
+    assert!(moduli as f64 >= 0.9 * of_moduli as f64);
+    let chance = 2.0 * (0.05 * 0.95 * curves as f64).sqrt();
+    let least = 0.95 * curves as f64 - chance;
+    assert!(contacts as f64 >= least && works as f64 >= least);
+    assert!(misfit < 1.5);
+}
+
+#[test]
+fn the_moduli_of_a_thin_layer_lie_in_their_bands_and_as_a_half_space_it_seems_stiffer() {
+    let (radius_m, thickness_m) = (2.5e-6, 1.5e-6);
+    let motion = Motion {
+        ramp_s: 0.5,
+        hold_s: 1.0,
+        depth_m: 4e-7,
+        before_m: 3e-7,
+    };
+    let branch = RelaxationBranch {
+        modulus_pa: 4e3,
+        time_s: 0.3,
+    };
+    let series = Relaxation::new(2e3, vec![branch]).unwrap();
+    let material = Material::from_relaxation(series.clone(), ModulusKind::Longitudinal, 0.5);
+    let truth: Truth = Box::new(move |omega| series.complex_modulus(omega));
+    let layer = LayerPlan {
+        thickness_m,
+        base: Base::Bonded,
+        base_modulus_ratio: None,
+        base_poisson_ratio: None,
+    };
+    let indenter: Arc<dyn Indenter> = Arc::new(ball(radius_m));
+    let rows = motion.loads_of(material.unwrap(), Arc::clone(&indenter), |plan| {
+        plan.contact.layer = Some(layer);
+        plan.solver = SolverPlan {
+            cells: 64,
+            ..SolverPlan::of(plan.contact.indenter.as_ref(), true)
+        };
+        plan.step_s = Some(motion.ramp_s / 100.0);
+    });
+    let made = made(&mut Random(8), &motion, &rows);
+    let half_space = CurvePlan {
+        forms: Form::all(1),
+        ..plan(indenter)
+    };
+    let mut on_layer = half_space.clone();
+    on_layer.contact.layer = Some(layer);
+    let [found, stiff] = [on_layer, half_space]
+        .map(|plan| fit(&plan, &made.curve, &AtomicBool::new(false)).unwrap());
+    let (moduli, of, contact) = inside(&found, &truth, made.contact_point_m);
+    assert!(moduli + 1 >= of && contact, "{moduli} of {of}, {contact}");
+    assert!(
+        found.laws.reduced_chi_squared < 1.5,
+        "{}",
+        found.laws.reduced_chi_squared
+    );
+    let omega = 1.0 / motion.ramp_s;
+    let seems =
+        stiff.laws.band(omega).unwrap().storage_pa / found.laws.band(omega).unwrap().storage_pa;
+    assert!(seems > 1.5, "{seems}");
+}
+
+#[test]
+fn a_layer_far_thicker_than_its_contact_is_a_half_space() {
+    let springs_of = |thickness_m: Option<f64>| {
+        let motion = Motion {
+            ramp_s: 0.5,
+            hold_s: 0.0,
+            depth_m: 4e-7,
+            before_m: 3e-7,
+        };
+        let series = Relaxation::new(2e3, Vec::new()).unwrap();
+        let material = Material::from_relaxation(series, ModulusKind::Longitudinal, 0.5).unwrap();
+        let rows = motion.loads(material, Arc::new(ball(2.5e-6)));
+        let made = made(&mut Random(8), &motion, &rows);
+        let mut plan = CurvePlan {
+            forms: Form::series(1, 1).collect(),
+            ..plan(Arc::new(ball(2.5e-6)))
+        };
+        plan.contact.layer = thickness_m.map(|thickness_m| LayerPlan {
+            thickness_m,
+            base: Base::Bonded,
+            base_modulus_ratio: None,
+            base_poisson_ratio: None,
+        });
+        fit(&plan, &made.curve, &AtomicBool::new(false))
+            .unwrap()
+            .laws
+            .band(2.0)
+            .unwrap()
+            .storage_pa
+    };
+    let half_space = springs_of(None);
+    // What a thick layer is stiffer by falls with the thickness (E. K. Dimitriadis et al., Biophys. J. 82 (2002) 2798): 1.133 chi of it.
+    let [near, far] =
+        [1e-4, 1e-3].map(|thickness_m| half_space / springs_of(Some(thickness_m)) - 1.0);
+    assert!(near > 5.0 * far && far > 0.0 && near < 0.03, "{near} {far}");
 }

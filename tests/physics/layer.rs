@@ -54,7 +54,7 @@ fn on_grid(indenter: &dyn Indenter, layer: Layer, grid: Grid) -> HalfSpace {
 /// A contact of [`RADIUS_M`] under a sphere.
 fn under_ball(layer: Layer) -> ElasticContact {
     let exact = LayerContact::new(layer, RADIUS_M, 60);
-    exact.under_sphere(0.01, COMPLIANCE_PER_PA).unwrap()
+    exact.under(|t| t * t / 0.01, COMPLIANCE_PER_PA).unwrap()
 }
 
 /// The stiffness of a punch, over that on a half-space.

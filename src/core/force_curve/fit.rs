@@ -1,29 +1,30 @@
 //! The laws of a curve: what is known, and the way from samples to laws.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
+use super::attracted::Attracted;
 use super::found::{CurveFit, Solved};
 use super::kept::Known;
-use super::problem::Fitted;
+use super::problem::{Answer, Fitted};
 use super::record::ForceCurve;
 use super::resolved::Probe;
 use super::springs::Springs;
-use super::touch::{contact_times, largest, pulled_from, touch};
+use super::touch::{contact_times, jump_in, largest, pulled, torn, touch};
 use crate::engine::body_of_revolution;
-use crate::indenter::Indenter;
+use crate::identify::{Sought, SoughtAttraction};
 use crate::material::law::Form;
-use crate::material::{Compressibility, Material, ModulusKind, Relaxation};
+use crate::material::{Creep, Material, ModulusKind, Relaxation};
+use crate::sweep::plan::contact::ContactPlan;
+use crate::sweep::plan::layer::LayerPlan;
 
 /// What is known before a curve is fitted.
 #[derive(Debug, Clone)]
 pub struct CurvePlan {
-    pub indenter: Arc<dyn Indenter>,
-    pub compressibility: Compressibility,
-    /// What the indenter is made of, where it is not rigid.
-    pub indenter_material: Option<Material>,
+    /// The bodies: of an attraction that is sought, as it is expected.
+    pub contact: ContactPlan<Sought>,
+    pub attraction: SoughtAttraction,
     /// The laws that are tried.
     pub forms: Vec<Form>,
     pub probe: Probe,
@@ -59,29 +60,35 @@ const FEWEST_POINTS: usize = 8;
 /// The finest time that a curve tells anything about, as a part of its contact.
 const FINEST: f64 = 0.02;
 
+/// By how much softer than on the approach a body may become, on which an attracted contact is wider.
+const SOFTER: f64 = 3.0;
+
 /// By how much deeper than expected a contact may become during a fit.
 const DEEPER: f64 = 1.3;
 
 impl CurvePlan {
     /// The relaxation modulus of the contact of a body of this series; `None` where the pair has none.
-    pub(super) fn contact(&self, series: &Relaxation) -> Option<Relaxation> {
-        let kind = ModulusKind::Longitudinal;
+    pub(super) fn relaxation(&self, series: &Relaxation) -> Option<Relaxation> {
+        let known = &self.contact.material;
         match (
-            &self.indenter_material,
-            self.compressibility.poisson_ratio(),
+            &known.indenter_material,
+            known.compressibility.poisson_ratio(),
         ) {
             (None, Some(nu)) => series.scaled(1.0 / (1.0 - nu * nu)).ok(),
-            (indenter, _) => {
-                let body =
-                    Material::from_relaxation(series.clone(), kind, self.compressibility.clone())
-                        .ok()?;
-                let pair = match indenter {
-                    Some(indenter) => body.against(indenter.clone()),
-                    None => body,
-                };
-                pair.contact_compliance().ok()?.to_relaxation().ok()
-            }
+            _ => self.creep(series)?.to_relaxation().ok(),
         }
+    }
+
+    /// The compliance of the same contact.
+    pub(super) fn creep(&self, series: &Relaxation) -> Option<Creep> {
+        let (kind, known) = (ModulusKind::Longitudinal, &self.contact.material);
+        let compressibility = known.compressibility.clone();
+        let body = Material::from_relaxation(series.clone(), kind, compressibility).ok()?;
+        let pair = match &known.indenter_material {
+            Some(indenter) => body.against(indenter.clone()),
+            None => body,
+        };
+        pair.contact_compliance().ok()
     }
 }
 
@@ -108,47 +115,70 @@ pub(super) fn fit_knowing(
     if count < FEWEST {
         return Err(CurveError::TooFew(count));
     }
-    let profile = body_of_revolution(plan.indenter.as_ref())
+    let indenter = &plan.contact.indenter;
+    let profile = body_of_revolution(indenter.as_ref())
+        .map_err(|error| CurveError::Shape(error.to_string()))?;
+    let nu = plan.contact.material.compressibility.poisson_ratio();
+    let layer = LayerPlan::for_body(plan.contact.layer, nu)
         .map_err(|error| CurveError::Shape(error.to_string()))?;
     let mut points = curve.points();
-    if let Some(drag) = plan.probe.drag_n_s_per_m {
-        for (force_n, speed) in points.force_n.iter_mut().zip(&points.speed_m_per_s) {
-            *force_n -= drag * speed;
-        }
+    points.less_drag(plan.probe.drag_n_s_per_m.unwrap_or(0.0), |_| 1.0);
+    let mut touch = touch(profile, layer, &points)?;
+    let adhesion = plan.contact.adhesion.as_ref();
+    let jump = adhesion.and_then(|_| jump_in(&points, &touch));
+    if let Some(about) = &jump {
+        let middle = usize::midpoint(about.start, about.end);
+        touch.contact_point_m = points.indentation_m[middle];
+        touch.before = about.start;
     }
-    let touch = touch(profile, &points)?;
-    let pulled_from = pulled_from(&points, &touch);
-    if let Some(count) = pulled_from {
-        points.truncate(count);
+    points.drag_falls(plan.probe, touch.contact_point_m);
+    let pulled = match adhesion {
+        None => pulled(&points, &touch),
+        Some(_) => torn(&points, &touch),
+    };
+    let mut contact = 0..points.path_s.len();
+    if let Some(left_out) = pulled.clone() {
+        contact.end = points.leave_out(left_out).start;
+    }
+    if let Some(about) = jump {
+        contact.start = points.leave_out(about).start;
     }
     let deepest_m = largest(&points.indentation_m) - touch.contact_point_m;
-    let springs = Springs::new(profile, DEEPER * deepest_m);
+    let nu = nu.unwrap_or(0.5);
+    let modulus_pa = touch.modulus_pa * (1.0 - nu * nu);
+    let depth_m = DEEPER * deepest_m;
+    let answer = match adhesion {
+        None => Springs::new(profile, layer, depth_m).map(Answer::Springs),
+        Some(adhesion) => {
+            let expected = (depth_m, SOFTER / touch.modulus_pa);
+            Attracted::new(indenter, adhesion, expected, &contact).map(Answer::Attracted)
+        }
+    };
+    let answer = answer.ok_or(CurveError::NoLaw)?;
     let deeper = points.indentation_m.iter();
     let in_contact = deeper.filter(|d| **d > touch.contact_point_m).count();
     if in_contact < FEWEST_POINTS {
         return Err(CurveError::ShortContact(in_contact));
     }
-    let fitted = Fitted::new(plan, &points, &springs, (&touch, deepest_m), interrupt);
+    let fitted = Fitted::new(plan, &points, &answer, (&touch, deepest_m), interrupt);
     let (first_s, last_s) = contact_times(&points, touch.contact_point_m);
     let window_s = (FINEST * (last_s - first_s), last_s - first_s);
-    let nu = plan.compressibility.poisson_ratio().unwrap_or(0.5);
-    let modulus_pa = touch.modulus_pa * (1.0 - nu * nu);
     let began = (modulus_pa, window_s, touch.contact_point_m);
-    let forms = plan.forms.par_iter();
-    let solved = |form: Form| match known {
-        None => fitted.best(form, began),
+    let found: Vec<Solved> = match known {
+        None => fitted.solved(&plan.forms, began),
         Some(known) => {
-            let (_, unknowns) = known.iter().find(|(own, _)| *own == form)?;
-            fitted.at(form, unknowns)
+            let at = |form: &Form| {
+                let (_, unknowns) = known.iter().find(|(own, _)| own == form)?;
+                Some((*form, fitted.at(*form, unknowns)?))
+            };
+            plan.forms.par_iter().filter_map(at).collect()
         }
     };
-    let found = forms.filter_map(|form| Some((*form, solved(*form)?)));
-    let found: Vec<Solved> = found.collect();
     match interrupt.load(Ordering::Relaxed) {
         true => Err(CurveError::Interrupted),
         false => {
             let mut found = fitted.judged(&found, window_s)?;
-            found.is_pulled = pulled_from.is_some();
+            found.is_pulled = pulled.is_some();
             found.ensemble = fitted.ensemble(&found, plan.samples);
             Ok(found)
         }

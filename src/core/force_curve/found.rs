@@ -18,6 +18,8 @@ pub struct CurveFit {
     pub laws: Laws,
     /// The indentation at which the contact begins, as the curve counts it.
     pub contact_point_m: Estimate,
+    /// Work of adhesion (J/m^2) and range (m), as many as were sought.
+    pub attraction: Vec<Estimate>,
     pub nuisances: Vec<(Nuisance, Estimate)>,
     /// Angular frequencies (rad/s) about which the curve says something: one over its contact time, and over its finest.
     pub window_rad_per_s: (f64, f64),
@@ -69,19 +71,22 @@ impl Fitted<'_> {
         };
         let laws = Laws::of(&tried.collect::<Vec<_>>(), &numbers).ok_or(CurveError::NoLaw)?;
         let best = laws.best();
-        let contact_point_m = |law: &FittedLaw| self.scale_m * law.unknowns[law.unknowns.len() - 1];
-        let own_m = contact_point_m(best);
-        let among = laws
-            .all
-            .iter()
-            .map(|law| law.akaike_weight * (contact_point_m(law) - own_m).powi(2));
-        let spread = laws.half_width * among.sum::<f64>().sqrt();
-        let beside = &best.halves[best.unknowns.len() - 1..];
-        let half_m = (beside[0] * self.scale_m).hypot(spread);
-        let off = self.off(best.form, &best.unknowns);
+        let sought = self.plan.attraction.count();
+        // With what the laws say otherwise: the contact point, and what is sought of the attraction.
+        let beside_law = |behind: usize| {
+            let unknown = |law: &FittedLaw| law.unknowns[law.unknowns.len() - 1 - sought + behind];
+            let own = unknown(best);
+            let among = laws.all.iter();
+            let among = among.map(|law| law.akaike_weight * (unknown(law) - own).powi(2));
+            let spread = laws.half_width * among.sum::<f64>().sqrt();
+            let half = best.halves[best.unknowns.len() - 1 - sought + behind];
+            Estimate::around(own, half.hypot(spread))
+        };
+        let beside = &best.halves[best.unknowns.len()..];
+        let off = self.off(best.form, &best.unknowns, true);
         let added = off.and_then(|off| self.added(&nuisances, &off));
         let added = added.ok_or(CurveError::NoLaw)?;
-        let halves = beside[1..]
+        let halves = beside
             .iter()
             .zip(&lengths)
             .map(|(half, length)| half / length);
@@ -89,7 +94,8 @@ impl Fitted<'_> {
             (added.iter().zip(halves)).map(|(value, half)| Estimate::around(*value, half));
         let computed_n = self.computed_n(best, &added).ok_or(CurveError::NoLaw)?;
         Ok(CurveFit {
-            contact_point_m: Estimate::around(own_m, half_m),
+            contact_point_m: beside_law(0).of(|part| part * self.scale_m),
+            attraction: (1..=sought).map(|k| beside_law(k).of(f64::exp)).collect(),
             nuisances: self.nuisances.iter().copied().zip(estimates).collect(),
             window_rad_per_s: (1.0 / whole_s, 1.0 / finest_s),
             computed_n,
@@ -103,11 +109,11 @@ impl Fitted<'_> {
 
     /// What the uncertainties of spring constant and radius change in the residuals, at one standard deviation.
     fn in_common(&self, form: Form, unknowns: &[f64]) -> Option<Vec<f64>> {
-        let scale = (self.plan.probe).scale_uncertainty(self.plan.indenter.as_ref());
+        let scale = (self.plan.probe).scale_uncertainty(self.plan.contact.indenter.as_ref());
         if scale == 0.0 {
             return Some(Vec::new());
         }
-        let response = self.response(form, unknowns)?;
+        let response = self.response(form, unknowns, true)?;
         let all = response.iter().zip(&self.sigma_n);
         Some(
             all.map(|(force_n, sigma_n)| scale * force_n / sigma_n)
@@ -134,8 +140,8 @@ impl Fitted<'_> {
                 is_near: true,
             };
             let unknowns = minimise(&problem, &law.unknowns, EXACTLY)?.unknowns;
-            let (contact_part, unknowns) = unknowns.split_last()?;
-            let values = law.form.values(unknowns);
+            let (of_law, contact_part, _) = self.parts(&unknowns)?;
+            let values = law.form.values(of_law);
             let drawn = Drawn {
                 form: law.form,
                 series: law.form.series_within(&values, beyond(self.times_s))?,
@@ -157,7 +163,7 @@ impl Fitted<'_> {
     }
 
     fn computed_n(&self, law: &FittedLaw, added: &[f64]) -> Option<Vec<f64>> {
-        let mut force_n = self.response(law.form, &law.unknowns)?;
+        let mut force_n = self.response(law.form, &law.unknowns, true)?;
         for (nuisance, size) in self.nuisances.iter().zip(added) {
             let column = self.column(*nuisance);
             let added = column.iter().zip(&self.sigma_n);

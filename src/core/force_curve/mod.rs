@@ -5,16 +5,18 @@
 //! 1. The indentation is freed of its noise: straight between knots, as few as leave nothing but noise. Samples that then lie on a line are
 //!    one point, the mean of them, with the noise of the force that the scatter of neighbours tells ([`record`]).
 //! 2. The indentation is prescribed, and the force follows from the springs of the axisymmetric engine, loading and
-//!    unloading, as often as they come.
+//!    unloading, as often as they come; those of a half-space or of a layer.
 //! 3. Unknown are the parameters of a law ([`crate::material::law`]), where the indentation begins, and, where the curve has a part before
 //!    contact, offset and drift of the force, and a drag where the speed changes: all at once, by least squares. What is linear is
 //!    projected out (G. H. Golub, V. Pereyra, SIAM J. Numer. Anal. 10 (1973) 413).
-//! 4. A retraction that pulls, as no law without attraction does, is left out.
+//! 4. A retraction that pulls, as no law without attraction does, is left out. Where an attraction is given, the attracted springs answer in
+//!    place of the others, work and range may be unknowns too, and only what follows the largest pull is left out.
 //! 5. Laws are compared by the criterion of G. Schwarz (Ann. Statist. 6 (1978) 461). The band of E* has in it what the others say otherwise,
 //!    each by the weight that H. Akaike's criterion gives it (K. P. Burnham, D. R. Anderson, *Model Selection and Multimodel Inference*,
 //!    Springer 2002): that of Schwarz, which finds the law, leaves too little to laws of more parameters for a band that is to hold the
 //!    truth. Where the best law misses the curve, all intervals are wider by the root of chi squared per degree of freedom.
 
+mod attracted;
 mod fit;
 mod found;
 mod kept;

@@ -3,9 +3,11 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
 
+use super::attracted::Attracted;
 use super::fit::CurvePlan;
-use super::record::Points;
+use super::record::{Points, span};
 use super::springs::Springs;
 use super::touch::{Nuisance, Touch, nuisances};
 use crate::identify::laws::clamped;
@@ -28,8 +30,27 @@ pub(super) const EXACTLY: Ending = Ending {
 const STEP: f64 = 0.01;
 const STEP_OF_CONTACT: f64 = 2e-3;
 
+/// How far the forces of attracted springs may be off, as a part of their range.
+const OFF: f64 = 5e-4;
+
+/// By how many times they are longer where edges that pass springs make the response less smooth.
+const LONGER: f64 = 2.0;
+
 /// The same on the way to the solution, to one side alone.
 const AHEAD: f64 = 1e-3;
+
+/// How far work and range may go from what is expected, as logarithms: a factor of a thousand.
+const FARTHEST: f64 = 6.9;
+
+/// A law is not followed whose squares are beyond this factor of the least and so many more.
+const HOPELESS: (f64, f64) = (1.2, 10.0);
+
+/// How the contact answers an indentation.
+pub(super) enum Answer {
+    Springs(Springs),
+    /// On the way to a solution, and at it.
+    Attracted([Attracted; 2]),
+}
 
 /// By how many times a start may be farther from the curve than the best and be followed too.
 const NEARLY: f64 = 4.0;
@@ -38,7 +59,7 @@ const NEARLY: f64 = 4.0;
 pub(super) struct Fitted<'a> {
     pub(super) plan: &'a CurvePlan,
     pub(super) points: &'a Points,
-    pub(super) springs: &'a Springs,
+    pub(super) answer: &'a Answer,
     /// The finest and the whole time (s) of the curve.
     pub(super) times_s: (f64, f64),
     /// The unknown contact point is a part of this.
@@ -62,7 +83,7 @@ impl<'a> Fitted<'a> {
     pub(super) fn new(
         plan: &'a CurvePlan,
         points: &'a Points,
-        springs: &'a Springs,
+        answer: &'a Answer,
         (touch, deepest_m): (&Touch, f64),
         interrupt: &'a AtomicBool,
     ) -> Self {
@@ -72,13 +93,17 @@ impl<'a> Fitted<'a> {
             .filter(|step| *step > 0.0)
             .fold(f64::INFINITY, f64::min);
         let sigma_n = points.samples.iter().map(|n| points.noise_n / n.sqrt());
+        let off_n = match answer {
+            Answer::Springs(_) => 0.0,
+            Answer::Attracted(_) => OFF * span(&points.force_n),
+        };
         let mut fitted = Self {
             plan,
             points,
-            springs,
+            answer,
             times_s: (finest_s, time_s[time_s.len() - 1] - time_s[0]),
             scale_m: deepest_m,
-            sigma_n: sigma_n.collect(),
+            sigma_n: sigma_n.map(|sigma_n| sigma_n.hypot(off_n)).collect(),
             nuisances: nuisances(points, touch, plan.probe.drag_n_s_per_m.is_none()),
             basis: Vec::new(),
             interrupt,
@@ -96,7 +121,7 @@ impl<'a> Fitted<'a> {
         Fitted {
             plan: self.plan,
             points,
-            springs: self.springs,
+            answer: self.answer,
             times_s: self.times_s,
             scale_m: self.scale_m,
             sigma_n: self.sigma_n.clone(),
@@ -118,23 +143,44 @@ impl<'a> Fitted<'a> {
         DVector::from_iterator(points.time_s.len(), all)
     }
 
-    pub(super) fn response(&self, form: Form, unknowns: &[f64]) -> Option<Vec<f64>> {
-        let (contact_part, unknowns) = unknowns.split_last()?;
-        let series = form.series_within(&form.values(unknowns), self.times_s)?;
-        let contact = self.plan.contact(&series)?;
+    fn is_attracted(&self) -> bool {
+        matches!(self.answer, Answer::Attracted(_))
+    }
+
+    /// Those of the law, the contact point as a part of the depth, and those of the attraction.
+    pub(super) fn parts<'u>(&self, unknowns: &'u [f64]) -> Option<(&'u [f64], f64, &'u [f64])> {
+        let of_law = unknowns
+            .len()
+            .checked_sub(1 + self.plan.attraction.count())?;
+        let (of_law, behind) = unknowns.split_at(of_law);
+        Some((of_law, behind[0], &behind[1..]))
+    }
+
+    /// Forces (N) at the points; on the way to a solution what is fast is good enough.
+    pub(super) fn response(&self, form: Form, unknowns: &[f64], is_near: bool) -> Option<Vec<f64>> {
+        let (of_law, contact_part, attraction) = self.parts(unknowns)?;
+        let series = form.series_within(&form.values(of_law), self.times_s)?;
         let contact_point_m = contact_part * self.scale_m;
         let depths = self.points.path_m.iter();
         let depths: Vec<f64> = depths.map(|d| d - contact_point_m).collect();
-        let force_n = (self.springs).response(&contact, &self.points.path_s, &depths)?;
+        let path = (&self.points.path_s[..], &depths[..]);
+        let force_n = match self.answer {
+            Answer::Springs(springs) => springs.response(&self.plan.relaxation(&series)?, path)?,
+            Answer::Attracted(springs) => {
+                let springs = &springs[usize::from(is_near)];
+                let adhesion = self.plan.contact.adhesion?.with_logarithms(attraction);
+                springs.response(&self.plan.creep(&series)?, &adhesion, path)?
+            }
+        };
         Some(self.points.on_path.iter().map(|k| force_n[*k]).collect())
     }
 
     /// Computed less measured forces in their standard deviations.
-    pub(super) fn off(&self, form: Form, unknowns: &[f64]) -> Option<DVector<f64>> {
+    pub(super) fn off(&self, form: Form, unknowns: &[f64], is_near: bool) -> Option<DVector<f64>> {
         if self.interrupt.load(Ordering::Relaxed) {
             return None;
         }
-        let response = self.response(form, unknowns)?;
+        let response = self.response(form, unknowns, is_near)?;
         let all = response.iter().zip(&self.points.force_n);
         let off = all
             .zip(&self.sigma_n)
@@ -150,29 +196,63 @@ impl<'a> Fitted<'a> {
         residuals
     }
 
-    /// The least squares solution of a law, from the best of its starts on.
-    pub(super) fn best(
+    /// About the least squares solution of a law, from the best of its starts on.
+    pub(super) fn roughly(
         &self,
         form: Form,
         (modulus_pa, window_s, contact_point_m): (f64, (f64, f64), f64),
     ) -> Option<Solution<Vec<f64>>> {
-        let problem = |is_near: bool| OfForm {
+        let problem = OfForm {
             fitted: self,
             form,
-            is_near,
+            is_near: false,
         };
+        let attraction = (self.plan.attraction).logarithms(self.plan.contact.adhesion.as_ref());
         let starts = form.starts(modulus_pa, window_s).into_iter();
         let starts = starts.filter_map(|mut start| {
             start.push(contact_point_m / self.scale_m);
+            start.extend(&attraction);
             self.scaled(form, start)
         });
         let mut starts: Vec<(f64, Vec<f64>)> = starts.collect();
         starts.sort_by(|a, b| a.0.total_cmp(&b.0));
         let nearly = NEARLY * starts.first()?.0;
         let all = starts.iter().take(2).filter(|(left, _)| *left <= nearly);
-        let found = all.filter_map(|(_, start)| minimise(&problem(false), start, ON_THE_WAY));
-        let found = found.min_by(|a, b| a.squares().total_cmp(&b.squares()))?;
-        minimise(&problem(true), &found.unknowns, EXACTLY)
+        let found = all.filter_map(|(_, start)| minimise(&problem, start, ON_THE_WAY));
+        found.min_by(|a, b| a.squares().total_cmp(&b.squares()))
+    }
+
+    /// The same from unknowns near it on.
+    pub(super) fn exactly(&self, form: Form, unknowns: &Vec<f64>) -> Option<Solution<Vec<f64>>> {
+        let problem = OfForm {
+            fitted: self,
+            form,
+            is_near: true,
+        };
+        minimise(&problem, unknowns, EXACTLY)
+    }
+
+    /// The least squares solutions of all laws that may be the right one: where a solution costs seconds, those are left out that are far
+    /// behind the best on the way to it.
+    pub(super) fn solved(
+        &self,
+        forms: &[Form],
+        began: (f64, (f64, f64), f64),
+    ) -> Vec<(Form, Solution<Vec<f64>>)> {
+        let roughly = |form: &Form| Some((*form, self.roughly(*form, began)?));
+        let mut rough: Vec<_> = forms.par_iter().filter_map(roughly).collect();
+        if self.is_attracted() {
+            let misses = |(form, found): &(Form, Solution<Vec<f64>>)| {
+                let unknowns = form.scales().count() as f64;
+                found.squares() + unknowns * (self.sigma_n.len() as f64).ln()
+            };
+            let least = rough.iter().map(misses).fold(f64::INFINITY, f64::min);
+            rough.retain(|found| misses(found) <= HOPELESS.0 * least + HOPELESS.1);
+        }
+        let exactly = |(form, found): &(Form, Solution<Vec<f64>>)| {
+            Some((*form, self.exactly(*form, &found.unknowns)?))
+        };
+        rough.par_iter().filter_map(exactly).collect()
     }
 
     /// A law with unknowns that were found before.
@@ -192,7 +272,7 @@ impl<'a> Fitted<'a> {
 
     /// A start with all its moduli multiplied so that it comes nearest to the curve, and the sum of squares that are left.
     fn scaled(&self, form: Form, mut start: Vec<f64>) -> Option<(f64, Vec<f64>)> {
-        let response = self.response(form, &start)?;
+        let response = self.response(form, &start, false)?;
         let weighed = |force: &[f64]| {
             let all = force.iter().zip(&self.sigma_n).map(|(f, s)| f / s);
             self.projected(DVector::from_iterator(self.sigma_n.len(), all))
@@ -212,22 +292,27 @@ impl<'a> Fitted<'a> {
 impl OfForm<'_> {
     /// Derivatives of the residuals by differences to one side.
     fn columns_ahead(&self, unknowns: &[f64]) -> Option<Vec<DVector<f64>>> {
-        let here = self.fitted.off(self.form, unknowns)?;
+        let here = self.fitted.off(self.form, unknowns, self.is_near)?;
         let column = |k: usize| {
             let mut moved = unknowns.to_vec();
             moved[k] += AHEAD;
-            Some((self.fitted.off(self.form, &moved)? - &here) / AHEAD)
+            Some((self.fitted.off(self.form, &moved, self.is_near)? - &here) / AHEAD)
         };
         (0..unknowns.len()).map(column).collect()
     }
 
     /// Derivatives of the residuals before anything is projected out.
     pub(super) fn columns(&self, unknowns: &[f64]) -> Option<Vec<DVector<f64>>> {
-        let last = unknowns.len() - 1;
+        let contact = self.fitted.parts(unknowns)?.0.len();
         let column = |k: usize| {
-            let step = if k == last { STEP_OF_CONTACT } else { STEP };
+            let step = if k == contact { STEP_OF_CONTACT } else { STEP };
+            let step = if self.fitted.is_attracted() {
+                LONGER * step
+            } else {
+                step
+            };
             central_difference(unknowns, k, step, &|moved| {
-                self.fitted.off(self.form, &moved)
+                self.fitted.off(self.form, &moved, self.is_near)
             })
         };
         (0..unknowns.len()).map(column).collect()
@@ -238,12 +323,12 @@ impl Problem for OfForm<'_> {
     type Unknowns = Vec<f64>;
 
     fn residuals(&self, unknowns: &Vec<f64>) -> Option<DVector<f64>> {
-        let off = self.fitted.off(self.form, unknowns)?;
+        let off = self.fitted.off(self.form, unknowns, self.is_near)?;
         Some(self.fitted.projected(off))
     }
 
     fn derivatives(&self, unknowns: &Vec<f64>) -> Option<DMatrix<f64>> {
-        let columns = match self.is_near {
+        let columns = match self.is_near || self.fitted.is_attracted() {
             true => self.columns(unknowns)?,
             false => self.columns_ahead(unknowns)?,
         };
@@ -252,6 +337,12 @@ impl Problem for OfForm<'_> {
     }
 
     fn clamp(&self, place: usize, value: f64) -> f64 {
-        clamped(self.form, place, value)
+        let plan = self.fitted.plan;
+        let behind = place.checked_sub(self.form.scales().count() + 1);
+        let expected = plan.attraction.logarithms(plan.contact.adhesion.as_ref());
+        match behind.and_then(|place| expected.get(place)) {
+            Some(expected) => value.clamp(expected - FARTHEST, expected + FARTHEST),
+            None => clamped(self.form, place, value),
+        }
     }
 }

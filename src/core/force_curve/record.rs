@@ -1,5 +1,8 @@
 //! A measured force curve, and the fewer points that a fit takes of it.
 
+use std::ops::Range;
+
+use super::resolved::Probe;
 use super::smooth::{Corner, Line, Smooth};
 use crate::numerics::order::median;
 
@@ -74,8 +77,27 @@ impl Points {
         }
     }
 
-    /// Leaves out all from one on.
-    pub(super) fn truncate(&mut self, count: usize) {
+    /// Takes a drag (N s/m) off that has so large a part of it at each indentation (m).
+    pub(super) fn less_drag(&mut self, drag_n_s_per_m: f64, part: impl Fn(f64) -> f64) {
+        let moved = self.speed_m_per_s.iter().zip(&self.indentation_m);
+        for (force_n, (speed, depth_m)) in self.force_n.iter_mut().zip(moved) {
+            *force_n -= drag_n_s_per_m * part(*depth_m) * speed;
+        }
+    }
+
+    /// Lets a drag that was taken off fall with the height above the contact point (m), and the speeds that one is proportional to.
+    pub(super) fn drag_falls(&mut self, probe: Probe, contact_point_m: f64) {
+        let part = |depth_m: f64| probe.drag_at(contact_point_m - depth_m);
+        let drag_n_s_per_m = probe.drag_n_s_per_m.unwrap_or(0.0);
+        self.less_drag(-drag_n_s_per_m, |depth_m| 1.0 - part(depth_m));
+        for (speed, depth_m) in self.speed_m_per_s.iter_mut().zip(&self.indentation_m) {
+            *speed *= part(*depth_m);
+        }
+    }
+
+    /// Leaves out these points; the path goes on through them, which tells where on it they were.
+    pub(super) fn leave_out(&mut self, points: Range<usize>) -> Range<usize> {
+        let on_path = self.on_path[points.start]..self.on_path[points.end - 1] + 1;
         for column in [
             &mut self.time_s,
             &mut self.force_n,
@@ -83,12 +105,10 @@ impl Points {
             &mut self.speed_m_per_s,
             &mut self.samples,
         ] {
-            column.truncate(count);
+            column.drain(points.clone());
         }
-        self.on_path.truncate(count);
-        let end = self.on_path.last().map_or(0, |last| last + 1);
-        self.path_s.truncate(end);
-        self.path_m.truncate(end);
+        self.on_path.drain(points);
+        on_path
     }
 }
 

@@ -4,14 +4,13 @@ use std::ops::Bound;
 
 use super::fit::CurvePlan;
 use super::record::ForceCurve;
-use crate::identify::Sought;
-use crate::identify::resolved::{IDENTIFY_BRANCHES, LAW, SAMPLES, branches_setting};
+use crate::identify::SoughtAttraction;
+use crate::identify::resolved::{ATTRACTION, IDENTIFY_BRANCHES, LAW, SAMPLES, branches_setting};
 use crate::indenter::Indenter;
 use crate::quantity::Dimension;
 use crate::quantity::block::Block as _;
 use crate::quantity::key::{Entries, Kind, Limits, number, quantity};
 use crate::quantity::setting::{Table, document};
-use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::resolved::{compressibility, indenter_material_text};
 use crate::{block_with_defaults, keys};
 
@@ -29,6 +28,12 @@ keys! {
 const UNCERTAINTY: Limits = Limits::new(Bound::Included(0.0), Bound::Included(0.5));
 
 impl Probe {
+    /// The drag at this height (m) above the surface, as a part of that at the surface.
+    pub(super) fn drag_at(&self, height_m: f64) -> f64 {
+        self.drag_height_m
+            .map_or(1.0, |scale_m| 1.0 / (1.0 + height_m.max(0.0) / scale_m))
+    }
+
     /// The relative standard deviation (1) that its uncertainties give to all forces; the force of a sphere goes with the root of its radius,
     /// that of a flat punch with it.
     pub fn scale_uncertainty(&self, indenter: &dyn Indenter) -> f64 {
@@ -48,10 +53,15 @@ block_with_defaults! {
     pub struct Probe in "instrument" {
         /// Spring constant of a cantilever: the force over its deflection.
         spring_constant_n_per_m: Option<f64> = None => "spring_constant", Kind::Number(quantity(Dimension::Stiffness).above_zero());
+        /// Deflection of a cantilever over the signal of its detector, of curves whose deflection is in volts.
+        sensitivity_m_per_v: Option<f64> = None => "sensitivity", Kind::Number(quantity(Dimension::Sensitivity).above_zero());
         /// Compliance of frame and mount, which the indentation is less by.
         frame_compliance_m_per_n: f64 = 0.0 => "frame_compliance", Kind::Number(quantity(Dimension::FrameCompliance).not_negative());
         /// Drag on the probe while it moves, where it is known; otherwise it is found, of curves that have a part before contact.
         drag_n_s_per_m: Option<f64> = None => "drag", Kind::Number(quantity(Dimension::Damping).not_negative());
+        /// Height above the surface over which the drag falls to a half, as `drag / (1 + height / drag_height)` (J. Alcaraz et al., Langmuir
+        /// 18 (2002) 716); left out: it does not change.
+        drag_height_m: Option<f64> = None => "drag_height", Kind::Number(quantity(Dimension::Length).above_zero());
         /// Relative standard uncertainty of the spring constant, which all curves have in common: 0.05 for 5 %.
         spring_constant_uncertainty: f64 = 0.0 => "spring_constant_uncertainty", Kind::Number(number("0.05").within(UNCERTAINTY));
         /// Relative standard uncertainty of the radius of a sphere or a flat punch.
@@ -75,21 +85,24 @@ pub struct CurvesPlan {
 
 /// The plan as the text of an identification file.
 pub fn resolved_text(plan: &CurvesPlan) -> String {
-    let known = Sought {
-        compressibility: plan.fit.compressibility.clone(),
-        indenter_material: plan.fit.indenter_material.clone(),
-    };
+    let known = &plan.fit.contact.material;
     let material = Table::new("material").and(compressibility(&known.compressibility));
     let indenter = known.indenter_material.as_ref().map(indenter_material_text);
-    let contact = ContactPlan::new(known, plan.fit.indenter.clone()).blocks(indenter);
+    let contact = plan.fit.contact.blocks(indenter);
     let identify = Table::new("identify")
         .and(CURVE.setting(plan.files.clone()))
         .and(LAW.setting(plan.laws.clone()))
         .and(IDENTIFY_BRANCHES.setting(branches_setting(plan.branches)))
         .and(SAMPLES.setting(plan.fit.samples));
+    let identify = match plan.fit.attraction {
+        SoughtAttraction::Known => identify,
+        sought => identify.and(ATTRACTION.setting(sought)),
+    };
     let blocks = [
         material.toml(),
+        contact.layer,
         contact.indenter,
+        contact.adhesion,
         identify.toml(),
         plan.fit.probe.table().toml(),
     ];

@@ -305,6 +305,11 @@ impl Line {
         }
     }
 
+    /// The value at a time.
+    pub(super) fn at(&self, time_s: f64) -> f64 {
+        self.middle.1 + self.slope * (time_s - self.middle.0)
+    }
+
     /// The time at which another line is met; `None` of lines that are parallel.
     fn meets(&self, other: &Self) -> Option<f64> {
         let at = |line: &Self| line.middle.1 - line.slope * line.middle.0;

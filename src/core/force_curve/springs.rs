@@ -3,10 +3,19 @@
 //!
 //! A spring at x in contact has the displacement u = delta - G(x), and its force follows; out of contact it has no force, and u follows.
 //! Within a step u is linear in time, from where the spring comes into contact on.
+//!
+//! A layer that relaxes in proportion to its base has springs too: the contact is a sum of flat punches of growing radius, of which each
+//! adds its pressure and none changes the displacement within a smaller one. A punch of radius a touches at the approach of the elastic
+//! contact of that radius, and the springs between two radii are as stiff as their punches differ ([`LayerContact`]).
 
+use std::f64::consts::PI;
+
+use crate::contact::half_space::layer::Layer;
 use crate::indenter::Axisymmetric;
 use crate::material::Relaxation;
+use crate::numerics::polynomial::lagrange;
 use crate::numerics::roots::{ALL_DIGITS, bisect};
+use crate::reference::layer::LayerContact;
 
 /// Springs over the contact at the deepest indentation, each in the middle of its part.
 const SPRINGS: usize = 72;
@@ -14,42 +23,111 @@ const SPRINGS: usize = 72;
 /// The springs of a contact up to some depth.
 #[derive(Debug, Clone)]
 pub(super) struct Springs {
+    /// Of each the indentation at which it touches.
     gaps_m: Vec<f64>,
-    width_m: f64,
+    /// Of each its force over displacement and contact modulus E/(1 - nu^2).
+    stiffness_m: Vec<f64>,
     deepest_m: f64,
     /// Whether the indenter ends where the springs do, so that they are as many for any depth.
     has_end: bool,
 }
 
-impl Springs {
-    pub(super) fn new(profile: &dyn Axisymmetric, deepest_m: f64) -> Self {
-        let radius_m = match profile.contact_limit_m() {
-            Some(limit_m) if profile.transformed_gap_m(limit_m * (1.0 - 1e-9)) < deepest_m => {
-                limit_m
-            }
-            _ => {
-                let is_inside = |x: f64| profile.transformed_gap_m(x) < deepest_m;
-                let mut beyond = deepest_m;
-                while is_inside(beyond) {
-                    beyond *= 2.0;
-                }
-                bisect(0.0, beyond, ALL_DIGITS, is_inside).1
-            }
-        };
-        let width_m = radius_m / SPRINGS as f64;
-        let places = (0..SPRINGS).map(|k| (k as f64 + 0.5) * width_m);
-        Self {
-            gaps_m: places.map(|x| profile.transformed_gap_m(x)).collect(),
-            width_m,
-            deepest_m,
-            has_end: profile.contact_limit_m() == Some(radius_m),
+/// Radii at which the equation of a layer is solved, and nodes for its smallest contact and for one as wide as it is thick.
+const RADII: usize = 16;
+const NODES: (usize, f64) = (16, 6.0);
+
+/// What touches a layer at a radius: its indentation over that on a half-space, and by how much stiffer a punch is.
+struct OnLayer {
+    radii_m: Vec<f64>,
+    gaps: Vec<f64>,
+    stiffness: Vec<f64>,
+}
+
+impl OnLayer {
+    /// For radii up to one.
+    fn up_to(profile: &dyn Axisymmetric, layer: Layer, radius_m: f64) -> Option<Self> {
+        let angle = |k: usize| PI * (k as f64 + 0.5) / RADII as f64;
+        let radii_m: Vec<f64> = (0..RADII)
+            .map(|k| 0.5 * radius_m * (1.0 - angle(k).cos()))
+            .collect();
+        let (mut gaps, mut stiffness) = (Vec::new(), Vec::new());
+        for radius_m in &radii_m {
+            let nodes = NODES.0 + (NODES.1 * radius_m / layer.thickness_m).ceil() as usize;
+            let contact = LayerContact::new(layer, *radius_m, nodes);
+            let found = contact.under(|x| profile.transformed_gap_m(x), 1.0)?;
+            let free_m = profile.transformed_gap_m(*radius_m);
+            gaps.push(if free_m == 0.0 {
+                1.0
+            } else {
+                found.approach_m / free_m
+            });
+            stiffness.push(contact.punch_stiffness()?);
         }
+        Some(Self {
+            radii_m,
+            gaps,
+            stiffness,
+        })
+    }
+
+    fn gap(&self, radius_m: f64) -> f64 {
+        lagrange(&self.radii_m, &self.gaps, radius_m)
+    }
+
+    fn stiffness(&self, radius_m: f64) -> f64 {
+        lagrange(&self.radii_m, &self.stiffness, radius_m)
+    }
+}
+
+impl Springs {
+    /// Up to a depth, on a half-space or a layer; `None` where the equation of the layer has no solution.
+    pub(super) fn new(
+        profile: &dyn Axisymmetric,
+        layer: Option<Layer>,
+        deepest_m: f64,
+    ) -> Option<Self> {
+        let limit_m = profile.contact_limit_m();
+        let mut radius_m = radius_m(profile, deepest_m);
+        let mut on_layer = None;
+        if let Some(layer) = layer {
+            // A layer is touched at a larger radius for the same depth.
+            let end_m = limit_m.unwrap_or(f64::INFINITY);
+            loop {
+                let found = OnLayer::up_to(profile, layer, radius_m)?;
+                let gap_m = |x: f64| found.gap(x) * profile.transformed_gap_m(x);
+                if radius_m >= end_m || gap_m(radius_m) >= deepest_m {
+                    let is_inside = |x: f64| gap_m(x) < deepest_m;
+                    radius_m = match is_inside(radius_m) {
+                        true => radius_m,
+                        false => bisect(0.0, radius_m, ALL_DIGITS, is_inside).1,
+                    };
+                    on_layer = Some(found);
+                    break;
+                }
+                radius_m = (1.3 * radius_m).min(end_m);
+            }
+        }
+        let width_m = radius_m / SPRINGS as f64;
+        let stiffer = |x: f64| on_layer.as_ref().map_or(1.0, |found| found.stiffness(x));
+        let gap_m = |k: usize| {
+            let x = (k as f64 + 0.5) * width_m;
+            on_layer.as_ref().map_or(1.0, |found| found.gap(x)) * profile.transformed_gap_m(x)
+        };
+        let punch_m = |k: usize| 2.0 * k as f64 * width_m * stiffer(k as f64 * width_m);
+        Some(Self {
+            gaps_m: (0..SPRINGS).map(gap_m).collect(),
+            stiffness_m: (0..SPRINGS).map(|k| punch_m(k + 1) - punch_m(k)).collect(),
+            deepest_m,
+            has_end: limit_m == Some(radius_m),
+        })
     }
 
     /// F of an elastic body of contact modulus one: the force (N) over the modulus E/(1 - nu^2) (Pa).
     pub(super) fn elastic_m2(&self, indentation_m: f64) -> f64 {
-        let pressed = self.gaps_m.iter().map(|gap| (indentation_m - gap).max(0.0));
-        2.0 * self.width_m * pressed.sum::<f64>()
+        let springs = self.gaps_m.iter().zip(&self.stiffness_m);
+        springs
+            .map(|(gap_m, stiffness_m)| stiffness_m * (indentation_m - gap_m).max(0.0))
+            .sum()
     }
 
     /// The force (N) at every point of a contact of this relaxation modulus, whose indentation is linear between them; `None` where it is
@@ -57,8 +135,7 @@ impl Springs {
     pub(super) fn response(
         &self,
         contact: &Relaxation,
-        time_s: &[f64],
-        indentation_m: &[f64],
+        (time_s, indentation_m): (&[f64], &[f64]),
     ) -> Option<Vec<f64>> {
         let mut march = March::new(self, contact);
         let mut force_n = Vec::with_capacity(time_s.len());
@@ -66,7 +143,7 @@ impl Springs {
             if depth_m > self.deepest_m && !self.has_end {
                 return None;
             }
-            force_n.push(2.0 * self.width_m * march.step(t, depth_m));
+            force_n.push(march.step(t, depth_m));
         }
         Some(force_n)
     }
@@ -112,7 +189,7 @@ impl<'a> March<'a> {
         }
     }
 
-    /// Goes on to a time (s) and an indentation (m); the sum of the forces of all springs over their width.
+    /// Goes on to a time (s) and an indentation (m); the force (N) of all springs.
     fn step(&mut self, t: f64, depth_m: f64) -> f64 {
         let step_s = t - self.before.map_or(t, |(before, _)| before);
         self.weigh(step_s);
@@ -176,7 +253,7 @@ impl<'a> March<'a> {
                 self.changes[j] = 0.0;
             } else {
                 self.changes[j] = change;
-                sum += force;
+                sum += self.springs.stiffness_m[j] * force;
             }
         }
         for (own, (_, gained)) in self.memory.chunks_exact_mut(count).zip(&self.weights) {
@@ -198,13 +275,14 @@ impl<'a> March<'a> {
         let mut sum = 0.0;
         for &(j, change, pressed_s) in &self.late {
             self.displacements_m[j] += change;
-            sum += self.held[j] + self.contact.equilibrium_modulus() * change;
+            let mut force = self.held[j] + self.contact.equilibrium_modulus() * change;
             let branches = self.contact.branches();
             for (own, branch) in self.memory.chunks_exact_mut(count).zip(branches) {
                 let more = branch.modulus_pa * mean_of_decay(pressed_s / branch.time_s) * change;
                 own[j] += more;
-                sum += more;
+                force += more;
             }
+            sum += self.springs.stiffness_m[j] * force;
         }
         sum
     }
@@ -216,4 +294,19 @@ fn mean_of_decay(ratio: f64) -> f64 {
         true => -(-ratio).exp_m1() / ratio,
         false => 1.0,
     }
+}
+
+/// The radius (m) at which a half-space is touched at a depth, or that at which the indenter ends.
+pub(super) fn radius_m(profile: &dyn Axisymmetric, depth_m: f64) -> f64 {
+    if let Some(limit_m) = profile.contact_limit_m()
+        && profile.transformed_gap_m(limit_m * (1.0 - 1e-9)) < depth_m
+    {
+        return limit_m;
+    }
+    let is_inside = |x: f64| profile.transformed_gap_m(x) < depth_m;
+    let mut beyond = depth_m;
+    while is_inside(beyond) {
+        beyond *= 2.0;
+    }
+    bisect(0.0, beyond, ALL_DIGITS, is_inside).1
 }

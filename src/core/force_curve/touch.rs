@@ -1,8 +1,12 @@
 //! Where a contact begins, roughly, and what the instrument adds to the force.
 
+use std::ops::Range;
+
 use super::fit::CurveError;
 use super::record::Points;
+use super::smooth::Line;
 use super::springs::Springs;
+use crate::contact::half_space::layer::Layer;
 use crate::indenter::Axisymmetric;
 use crate::measured::statistics::mean;
 use crate::quantity::Dimension;
@@ -15,6 +19,18 @@ const PULL: f64 = 0.1;
 
 /// The same of a curve that ends while it is held.
 const HELD: f64 = 0.3;
+
+/// The fall of the force of a jump into contact, in standard deviations.
+const JUMP: f64 = 8.0;
+
+/// That of the points on either side that belong to it.
+const FALLING: f64 = 2.0;
+
+/// So many points are left out before and behind it.
+const ABOUT: usize = 3;
+
+/// How near (standard deviations of a point) the mean of some points has come back to the line of the end.
+const AS_AT_THE_END: f64 = 2.0;
 
 /// The part of the depth above which an indenter has not been retracted yet.
 const RETRACTED: f64 = 0.95;
@@ -68,7 +84,11 @@ pub(super) struct Touch {
 }
 
 /// Tries every point of the first approach as that of first contact, with a force that is constant before it and elastic from it on.
-pub(super) fn touch(profile: &dyn Axisymmetric, points: &Points) -> Result<Touch, CurveError> {
+pub(super) fn touch(
+    profile: &dyn Axisymmetric,
+    layer: Option<Layer>,
+    points: &Points,
+) -> Result<Touch, CurveError> {
     let (least_m, deepest_m) = (
         points
             .indentation_m
@@ -80,10 +100,9 @@ pub(super) fn touch(profile: &dyn Axisymmetric, points: &Points) -> Result<Touch
     if deepest_m <= least_m {
         return Err(CurveError::Still);
     }
-    let springs = Springs::new(profile, 1.0001 * (deepest_m - least_m));
-    // The approach ends where most of the depth has been reached for the first time.
-    let is_deep = |d: &f64| *d >= deepest_m - 0.02 * (deepest_m - least_m);
-    let end = points.indentation_m.iter().position(is_deep).unwrap_or(0);
+    let springs = Springs::new(profile, layer, 1.0001 * (deepest_m - least_m));
+    let springs = springs.ok_or(CurveError::NoLaw)?;
+    let end = end_of_approach(points);
     let mut best: Option<(f64, Touch)> = None;
     for start in 0..end.saturating_sub(3) {
         let contact_point_m = points.indentation_m[start];
@@ -125,25 +144,98 @@ pub(super) fn touch(profile: &dyn Axisymmetric, points: &Points) -> Result<Touch
     best.map(|(_, touch)| touch).ok_or(CurveError::NoContact)
 }
 
-/// The first point of a retraction that pulls, as no law without attraction does; `None` where nothing pulls.
-pub(super) fn pulled_from(points: &Points, touch: &Touch) -> Option<usize> {
+/// The point where most of the depth has been reached for the first time.
+fn end_of_approach(points: &Points) -> usize {
+    let depths_m = points.indentation_m.iter();
+    let least_m = depths_m.copied().fold(f64::INFINITY, f64::min);
+    let deepest_m = largest(&points.indentation_m);
+    let is_deep = |d: &f64| *d >= deepest_m - 0.02 * (deepest_m - least_m);
+    points.indentation_m.iter().position(is_deep).unwrap_or(0)
+}
+
+/// The points of a retraction that pulls, as no law without attraction does, down to where the force has come back; `None` where nothing pulls.
+pub(super) fn pulled(points: &Points, touch: &Touch) -> Option<Range<usize>> {
     if touch.before < FEWEST_BEFORE {
         return None;
     }
+    let retraction = Retraction::of(points)?;
     let before_n = mean(&points.force_n[..touch.before])?;
-    let deepest = (0..points.indentation_m.len())
-        .max_by(|a, b| points.indentation_m[*a].total_cmp(&points.indentation_m[*b]))?;
     let largest_n = largest(&points.force_n) - before_n;
     // Drift and drag have moved the baseline of the end, but not by much.
-    let back = &points.force_n[deepest..];
-    let after_n = mean(&back[back.len() - back.len().min(FEWEST_BEFORE)..])?;
-    let least_n = back.iter().copied().fold(f64::INFINITY, f64::min);
+    let (least_n, after_n) = (points.force_n[retraction.pull], retraction.after_n);
     let is_pulled =
         before_n.min(after_n) - least_n > PULL * largest_n || before_n - after_n > HELD * largest_n;
-    let depth_m = points.indentation_m[deepest] - touch.contact_point_m;
+    let depth_m = points.indentation_m[retraction.deepest] - touch.contact_point_m;
     let is_deep = |d: &f64| *d > touch.contact_point_m + RETRACTED * depth_m;
     let last = points.indentation_m.iter().rposition(is_deep)?;
-    is_pulled.then_some(last + 1)
+    is_pulled.then(|| last + 1..retraction.back)
+}
+
+/// The points behind the largest pull, where the contact tears off, down to where the force has come back; `None` where it stays in contact.
+pub(super) fn torn(points: &Points, touch: &Touch) -> Option<Range<usize>> {
+    let before_n = mean(&points.force_n[..touch.before]).unwrap_or(0.0);
+    let retraction = Retraction::of(points)?;
+    let least_n = points.force_n[retraction.pull];
+    let is_torn = retraction.after_n - least_n > 0.5 * (before_n - least_n);
+    let left_out = retraction.pull + 1..retraction.back;
+    (least_n < before_n && is_torn && !left_out.is_empty()).then_some(left_out)
+}
+
+/// What the points of a retraction say, in their order: the deepest, that of the largest pull, the first of those whose force is as at the end.
+struct Retraction {
+    deepest: usize,
+    pull: usize,
+    back: usize,
+    /// The force at the end.
+    after_n: f64,
+}
+
+impl Retraction {
+    fn of(points: &Points) -> Option<Self> {
+        let force_n = &points.force_n;
+        let deepest = (0..force_n.len())
+            .max_by(|a, b| points.indentation_m[*a].total_cmp(&points.indentation_m[*b]))?;
+        let pull = (deepest..force_n.len()).min_by(|a, b| force_n[*a].total_cmp(&force_n[*b]))?;
+        let last = force_n.len() - (force_n.len() - deepest).min(FEWEST_BEFORE);
+        let after_n = mean(&force_n[last..])?;
+        // The line of the last third says what the force is out of contact.
+        let tail = (pull + 2 * (force_n.len() - pull) / 3).min(force_n.len() - 1)..force_n.len();
+        let line = Line::of(&points.time_s[tail.clone()], &force_n[tail.clone()]);
+        let is_flat = tail.len() >= 2 * FEWEST_BEFORE && line.scatter < 2.0 * points.noise_n;
+        let is_back = |k: &usize| {
+            let off = (*k..*k + FEWEST_BEFORE).map(|k| force_n[k] - line.at(points.time_s[k]));
+            off.sum::<f64>().abs() / (FEWEST_BEFORE as f64) < AS_AT_THE_END * line.scatter
+        };
+        let back = (pull + 1..tail.start).find(is_back).filter(|_| is_flat);
+        let back = back.map_or(force_n.len(), |back| (back + ABOUT).min(tail.start));
+        Some(Self {
+            deepest,
+            pull,
+            back,
+            after_n,
+        })
+    }
+}
+
+/// The points about a jump of the approach into contact, by which the force falls from one point to the next and which a law may have a little
+/// earlier or later; `None` where there is none.
+pub(super) fn jump_in(points: &Points, touch: &Touch) -> Option<Range<usize>> {
+    if touch.before < FEWEST_BEFORE {
+        return None;
+    }
+    let end = end_of_approach(points);
+    // In standard deviations; one point may be a mean over the jump.
+    let fall = |k: usize, steps: usize| {
+        let samples = points.samples[k].recip() + points.samples[k + steps].recip();
+        (points.force_n[k] - points.force_n[k + steps]) / (points.noise_n * samples.sqrt())
+    };
+    let before = (0..end.saturating_sub(1)).max_by(|a, b| fall(*a, 2).total_cmp(&fall(*b, 2)))?;
+    let is_falling = |k: &usize| fall(*k, 1) > FALLING;
+    let first = (0..before).rev().take_while(is_falling).last();
+    let last = (before + 2..end).take_while(is_falling).last();
+    let from = first.unwrap_or(before).saturating_sub(ABOUT);
+    let to = last.map_or(before + 2, |last| last + 1) + 1 + ABOUT;
+    (fall(before, 2) > JUMP).then_some(from..to.min(points.force_n.len()))
 }
 
 /// What the instrument may add that the curve can tell.

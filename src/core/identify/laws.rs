@@ -45,6 +45,15 @@ impl Estimate {
             high: value + half,
         }
     }
+
+    /// What rises with the number.
+    pub(crate) fn of(self, rising: impl Fn(f64) -> f64) -> Self {
+        Self {
+            value: rising(self.value),
+            low: rising(self.low),
+            high: rising(self.high),
+        }
+    }
 }
 
 /// A law as it fits the numbers best.

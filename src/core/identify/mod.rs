@@ -85,6 +85,7 @@ use crate::material::{
 };
 use crate::sweep::case::SetupError;
 use crate::sweep::plan::CyclePlan;
+use crate::sweep::plan::adhesion::AdhesionPlan;
 use crate::sweep::plan::contact::ContactPlan;
 use crate::words;
 
@@ -112,6 +113,23 @@ words! {
         Known = "known",
         Work = "work",
         WorkAndRange = "work-and-range",
+    }
+}
+
+impl SoughtAttraction {
+    /// How many numbers of it are unknown.
+    pub(crate) const fn count(self) -> usize {
+        match self {
+            Self::Known => 0,
+            Self::Work => 1,
+            Self::WorkAndRange => 2,
+        }
+    }
+
+    /// Logarithms of what is sought (J/m^2, m), of an attraction as it is expected.
+    pub(crate) fn logarithms(self, expected: Option<&AdhesionPlan>) -> Vec<f64> {
+        let all = expected.map_or([0.0; 2], AdhesionPlan::logarithms);
+        all[..self.count()].to_vec()
     }
 }
 
@@ -201,31 +219,14 @@ impl IdentifyPlan {
 
     /// Logarithms of what is sought of the attraction (J/m^2, m), as the plan has it.
     pub(crate) fn sought_attraction(&self) -> Vec<f64> {
-        let adhesion = self.contact.adhesion;
-        let all = adhesion.map_or([0.0; 2], |adhesion| {
-            [adhesion.work_j_per_m2, adhesion.range_m()].map(f64::ln)
-        });
-        let count = match self.attraction {
-            SoughtAttraction::Known => 0,
-            SoughtAttraction::Work => 1,
-            SoughtAttraction::WorkAndRange => 2,
-        };
-        all[..count].to_vec()
+        self.attraction.logarithms(self.contact.adhesion.as_ref())
     }
 
     /// The same plan with another attraction of these logarithms, as many as are sought.
     pub(crate) fn attracted_by(&self, logarithms: &[f64]) -> Self {
         let mut plan = self.clone();
-        if let Some(adhesion) = &mut plan.contact.adhesion {
-            let range_m = adhesion.range_m();
-            (adhesion.range_m, adhesion.stress_pa) = (Some(range_m), None);
-            for (place, ln) in logarithms.iter().enumerate() {
-                match place {
-                    0 => adhesion.work_j_per_m2 = ln.exp(),
-                    _ => adhesion.range_m = Some(ln.exp()),
-                }
-            }
-        }
+        let adhesion = plan.contact.adhesion;
+        plan.contact.adhesion = adhesion.map(|adhesion| adhesion.with_logarithms(logarithms));
         plan
     }
 

@@ -4,14 +4,14 @@ use std::f64::consts::PI;
 
 use super::ZERO_CELSIUS_K;
 
-/// Exponents of metre, kilogram, second, radian, cycle and kelvin.
+/// Exponents of metre, kilogram, second, radian, cycle, kelvin and volt.
 ///
 /// Radian and cycle are kept apart from a pure number, so that rad/s and Hz are not confused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Exponents(pub(super) [i32; 6]);
+pub(super) struct Exponents(pub(super) [i32; 7]);
 
 impl Exponents {
-    pub(super) const NONE: Exponents = Exponents([0; 6]);
+    pub(super) const NONE: Exponents = Exponents([0; 7]);
 
     fn plus(self, other: Exponents, times: i32) -> Exponents {
         Exponents(std::array::from_fn(|k| self.0[k] + other.0[k] * times))
@@ -47,7 +47,7 @@ struct Symbol {
     takes_prefix: bool,
 }
 
-const fn prefixable(text: &'static str, exponents: [i32; 6]) -> Symbol {
+const fn prefixable(text: &'static str, exponents: [i32; 7]) -> Symbol {
     Symbol {
         text,
         unit: Unit::of(exponents),
@@ -64,36 +64,36 @@ const fn without_prefix(text: &'static str, unit: Unit) -> Symbol {
 }
 
 const fn time(text: &'static str, seconds: f64) -> Symbol {
-    let mut unit = Unit::of([0, 0, 1, 0, 0, 0]);
+    let mut unit = Unit::of([0, 0, 1, 0, 0, 0, 0]);
     unit.multiplier = seconds;
     without_prefix(text, unit)
 }
 
 const GRAM: Unit = Unit {
     decimal_exponent: -3,
-    ..Unit::of([0, 1, 0, 0, 0, 0])
+    ..Unit::of([0, 1, 0, 0, 0, 0, 0])
 };
 const ANGSTROM: Unit = Unit {
     decimal_exponent: -10,
-    ..Unit::of([1, 0, 0, 0, 0, 0])
+    ..Unit::of([1, 0, 0, 0, 0, 0, 0])
 };
 const DEGREE: Unit = Unit {
     degrees: 1,
-    ..Unit::of([0, 0, 0, 1, 0, 0])
+    ..Unit::of([0, 0, 0, 1, 0, 0, 0])
 };
 const CELSIUS: Unit = Unit {
     zero_k: ZERO_CELSIUS_K,
-    ..Unit::of([0, 0, 0, 0, 0, 1])
+    ..Unit::of([0, 0, 0, 0, 0, 1, 0])
 };
 
-const SYMBOLS: [Symbol; 17] = [
-    prefixable("m", [1, 0, 0, 0, 0, 0]),
-    prefixable("N", [1, 1, -2, 0, 0, 0]),
-    prefixable("Pa", [-1, 1, -2, 0, 0, 0]),
-    prefixable("s", [0, 0, 1, 0, 0, 0]),
-    prefixable("J", [2, 1, -2, 0, 0, 0]),
-    prefixable("Hz", [0, 0, -1, 0, 1, 0]),
-    prefixable("rad", [0, 0, 0, 1, 0, 0]),
+const SYMBOLS: [Symbol; 18] = [
+    prefixable("m", [1, 0, 0, 0, 0, 0, 0]),
+    prefixable("N", [1, 1, -2, 0, 0, 0, 0]),
+    prefixable("Pa", [-1, 1, -2, 0, 0, 0, 0]),
+    prefixable("s", [0, 0, 1, 0, 0, 0, 0]),
+    prefixable("J", [2, 1, -2, 0, 0, 0, 0]),
+    prefixable("Hz", [0, 0, -1, 0, 1, 0, 0]),
+    prefixable("rad", [0, 0, 0, 1, 0, 0, 0]),
     Symbol {
         text: "g",
         unit: GRAM,
@@ -105,7 +105,9 @@ const SYMBOLS: [Symbol; 17] = [
     time("d", 86400.0),
     without_prefix("deg", DEGREE),
     without_prefix("°", DEGREE),
-    prefixable("K", [0, 0, 0, 0, 0, 1]),
+    prefixable("K", [0, 0, 0, 0, 0, 1, 0]),
+    // What a photodetector gives of a deflection: never joined with the units of mechanics.
+    prefixable("V", [0, 0, 0, 0, 0, 0, 1]),
     without_prefix("°C", CELSIUS),
     without_prefix("degC", CELSIUS),
 ];
@@ -207,9 +209,9 @@ pub(super) fn prefix_symbol(power: i32) -> &'static str {
 }
 
 impl Unit {
-    const ONE: Unit = Unit::of([0; 6]);
+    const ONE: Unit = Unit::of([0; 7]);
 
-    const fn of(exponents: [i32; 6]) -> Unit {
+    const fn of(exponents: [i32; 7]) -> Unit {
         Unit {
             exponents: Exponents(exponents),
             decimal_exponent: 0,

@@ -85,14 +85,14 @@ impl LayerContact {
         Some(self.integral(&phi) / self.radius_m)
     }
 
-    /// The contact of this radius that a sphere (its radius in m) makes at this contact compliance (1/Pa).
-    pub fn under_sphere(
+    /// The contact of this radius that an indenter of this transformed gap (m) at a place (m) makes at this contact compliance (1/Pa).
+    pub fn under(
         &self,
-        sphere_radius_m: f64,
+        transformed_gap_m: impl Fn(f64) -> f64,
         compliance_per_pa: f64,
     ) -> Option<ElasticContact> {
         let (flat, flat_edge) = self.solve(|_| 1.0)?;
-        let (round, round_edge) = self.solve(|t| t * t / sphere_radius_m)?;
+        let (round, round_edge) = self.solve(transformed_gap_m)?;
         let approach_m = round_edge / flat_edge;
         let phi = approach_m * self.integral(&flat) - self.integral(&round);
         Some(ElasticContact {
@@ -172,7 +172,7 @@ mod tests {
     /// The load over that of Hertz at the same approach, and sqrt(R delta)/h.
     fn over_hertz(base: Base, a_over_h: f64) -> (f64, f64) {
         let contact = LayerContact::new(layer(base, 0.5), 1e-3 * a_over_h, 24);
-        let found = contact.under_sphere(0.1, 1.0).unwrap();
+        let found = contact.under(|t| t * t / 0.1, 1.0).unwrap();
         let hertz_n = 4.0 / 3.0 * (0.1 * found.approach_m.powi(3)).sqrt();
         let chi = (0.1 * found.approach_m).sqrt() / 1e-3;
         (found.load_n / hertz_n, chi)

@@ -6,7 +6,7 @@ use crate::force_curve::ForceCurve;
 use crate::force_curve::resolved::Probe;
 use crate::input::data_file::{Column, DataFile, Holds, Holes, TIME};
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source};
-use crate::quantity::Dimension::{Force, Length};
+use crate::quantity::Dimension::{Force, Length, Voltage};
 
 const CURVE: Column = Column::pure(
     &["curve", "curve_number", "curve_index"],
@@ -15,7 +15,7 @@ const CURVE: Column = Column::pure(
 .optional();
 
 #[rustfmt::skip]
-const COLUMNS: [Column; 7] = [
+const COLUMNS: [Column; 8] = [
     TIME,
     Column::new(&["force", "load", "normal_force"], Force, "forces").by_first_name().optional(),
     Column::new(&["indentation", "depth", "approach", "penetration", "tip_sample_separation", "disp"], Length, "indentations")
@@ -25,6 +25,7 @@ const COLUMNS: [Column; 7] = [
     CURVE,
     // That of a load in a history of this program is the error of its computation.
     Column::new(&["force"], Force, "errors of forces").of_errors(Holds::Errors, "errors of forces").optional(),
+    Column::new(&["deflection_signal", "deflection_v", "photodetector", "photodiode"], Voltage, "deflection signals").by_first_name().optional(),
 ];
 
 /// The curves of a table that messages call `name`.
@@ -41,8 +42,19 @@ pub(super) fn parse(
     let table = file.columns(&COLUMNS, Holes::PassedOver, without_number)?;
     let column = |place: usize| table.has(place).then(|| table.column(place));
     let [force_n, indentation_m, piezo_m, deflection_m] = [1, 2, 3, 4].map(column);
+    let header = file.first_line();
+    let deflection_m = match (deflection_m, column(7), probe.sensitivity_m_per_v) {
+        (None, Some(signal_v), Some(sensitivity)) => Some(times(&signal_v, sensitivity)),
+        (None, Some(_), None) if force_n.is_none() => {
+            return Err(Diagnostic::at(&header, "a deflection in volts, and no sensitivity")
+                .because("the deflection is their product")
+                .help("add `[instrument]` with `sensitivity = \"50 nm/V\"`, or a column `deflection_m` or `force_n`")
+                .into());
+        }
+        (deflection_m, ..) => deflection_m,
+    };
     let signals = Signals {
-        header: file.first_line(),
+        header,
         force_n,
         indentation_m,
         piezo_m,

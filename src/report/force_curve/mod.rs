@@ -24,6 +24,16 @@ use crate::sweep::store::files::{DATA, Place};
 /// The table of moduli over frequency.
 const MODULI_TABLE: Place<'_> = Place::Figure("moduli", DATA);
 
+/// What is sought of an attraction: its name with the unit, as tables call it, in words, and its dimension.
+const ATTRACTION: [(&str, &str, Dimension); 2] = [
+    (
+        "work_j_per_m2",
+        "work of adhesion",
+        Dimension::EnergyPerArea,
+    ),
+    ("range_m", "range of the attraction", Dimension::Length),
+];
+
 /// Laws of curves and what they came to.
 pub struct CurvesReport<'a> {
     pub plan: &'a CurvesPlan,
@@ -64,6 +74,13 @@ impl<'a> Found<'a> {
             estimate: self.fit.contact_point_m,
             dimension: Some(Dimension::Length),
         };
+        let attraction = ATTRACTION.iter().zip(&self.fit.attraction);
+        let attraction = attraction.map(|((name, words, dimension), estimate)| Named {
+            name: (*name).to_owned(),
+            words: (*words).to_owned(),
+            estimate: *estimate,
+            dimension: Some(*dimension),
+        });
         let nuisances = self.fit.nuisances.iter();
         let nuisances = nuisances.map(|(nuisance, estimate)| Named {
             name: nuisance.name().to_owned(),
@@ -74,6 +91,7 @@ impl<'a> Found<'a> {
         parameters
             .into_iter()
             .chain([contact_point])
+            .chain(attraction)
             .chain(nuisances)
             .collect()
     }
@@ -139,7 +157,10 @@ impl<'a> CurvesReport<'a> {
     /// The `[material]` block of a sweep file, below title and findings as comments; `None` of several curves.
     pub fn block(&self) -> Option<String> {
         let fit = self.single()?.fit;
-        let (kind, known) = (ModulusKind::Longitudinal, &self.plan.fit.compressibility);
+        let (kind, known) = (
+            ModulusKind::Longitudinal,
+            &self.plan.fit.contact.material.compressibility,
+        );
         let mut body = Material::from_relaxation(fit.laws.series()?, kind, known.clone()).ok()?;
         let (lowest, highest) = fit.window_rad_per_s;
         body.origin.measured_window_s = Some((1.0 / highest, 1.0 / lowest));
@@ -161,7 +182,7 @@ impl<'a> CurvesReport<'a> {
     /// The same, one fact a line.
     pub fn lines(&self) -> Vec<String> {
         match self.single() {
-            Some(found) => lines_of(found),
+            Some(found) => lines_of(found, self.plan.fit.contact.adhesion.is_some()),
             None => self.lines_of_many(),
         }
     }
@@ -211,7 +232,7 @@ impl<'a> CurvesReport<'a> {
     }
 }
 
-fn lines_of(found: &Found<'_>) -> Vec<String> {
+fn lines_of(found: &Found<'_>, is_attracted: bool) -> Vec<String> {
     let Found { curve, fit, .. } = found;
     let mut lines = Vec::new();
     let laws = &fit.laws;
@@ -246,10 +267,15 @@ fn lines_of(found: &Found<'_>) -> Vec<String> {
         ));
     }
     if fit.is_pulled {
-        lines.push(
-            "Note: the retraction pulls, as no law without attraction does: it is left out."
-                .to_owned(),
-        );
+        let left_out = match is_attracted {
+            true => {
+                "Note: what follows the largest pull, while the contact tears off, is left out."
+            }
+            false => {
+                "Note: the retraction pulls, as no law without attraction does: it is left out; with `[adhesion]` it is not."
+            }
+        };
+        lines.push(left_out.to_owned());
     }
     if fit.nuisances.is_empty() {
         lines.push(

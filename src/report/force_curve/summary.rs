@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{CurvesReport, Found};
+use super::{ATTRACTION, CurvesReport, Found};
 use crate::report::identify::tables::row;
 use crate::report::laws::{self, estimate};
 
@@ -22,7 +22,7 @@ pub fn summary(report: &CurvesReport<'_>) -> Value {
             all
         }
     };
-    let known = &report.plan.fit.compressibility;
+    let known = &report.plan.fit.contact.material.compressibility;
     for (key, value) in [
         ("title", json!(report.plan.title)),
         ("of", json!("force-curves")),
@@ -44,6 +44,9 @@ fn of_curve(found: &Found<'_>) -> Map<String, Value> {
     let nuisances: Map<String, Value> = (fit.nuisances.iter())
         .map(|(nuisance, value)| (nuisance.name().to_owned(), estimate(value)))
         .collect();
+    let adhesion: Map<String, Value> = (ATTRACTION.iter().zip(&fit.attraction))
+        .map(|((name, ..), value)| ((*name).to_owned(), estimate(value)))
+        .collect();
     let moduli = bands
         .iter()
         .map(|(omega, band)| row(*omega, band, fit.window_rad_per_s));
@@ -51,6 +54,7 @@ fn of_curve(found: &Found<'_>) -> Map<String, Value> {
         "curve": curve.name,
         "status": "converged",
         "contact_point_m": estimate(&fit.contact_point_m),
+        "adhesion": adhesion,
         "instrument": nuisances,
         "samples": curve.time_s.len(),
         "ensemble": fit.ensemble.len(),

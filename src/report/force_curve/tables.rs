@@ -1,6 +1,7 @@
 //! The tables of force curves: a row for every curve, the points of the fits, the moduli with their bands, the ensemble.
 
 use super::{CurvesReport, Found};
+use crate::identify::SoughtAttraction;
 use crate::report::identify::tables::{COLUMNS, MODULI, SAMPLED, cells_of, sampled, with_ends};
 use crate::report::table::{Cell, cells, csv};
 
@@ -14,7 +15,10 @@ pub fn curves(report: &CurvesReport<'_>) -> Vec<u8> {
         "reduced_chi_squared",
         "message",
     ];
-    let columns = [&before[..], &MODULI, &behind].concat();
+    let sought = report.plan.fit.attraction != SoughtAttraction::Known;
+    let work = ["work_j_per_m2", "work_low_j_per_m2", "work_high_j_per_m2"];
+    let work = if sought { &work[..] } else { &[] };
+    let columns = [&before[..], &MODULI, work, &behind].concat();
     let rows = report.curves().iter().map(|(curve, found)| {
         let (x_m, y_m) = curve.place_m.unzip();
         let mut row = cells![curve.name.clone(), x_m, y_m].to_vec();
@@ -37,6 +41,9 @@ pub fn curves(report: &CurvesReport<'_>) -> Vec<u8> {
                     fit.laws.best().weight
                 ]);
                 row.extend(values.unwrap_or([None; 7]).map(Cell::from));
+                if let Some(work) = fit.attraction.first() {
+                    row.extend(cells![work.value, work.low, work.high]);
+                }
                 row.extend(cells![
                     contact.value,
                     contact.low,

@@ -80,6 +80,22 @@ impl AdhesionPlan {
         self.range_m.or(of_stress).unwrap_or(Self::RANGE_M)
     }
 
+    /// Logarithms of work (J/m^2) and range (m), of which as many as are sought are unknowns.
+    pub(crate) fn logarithms(&self) -> [f64; 2] {
+        [self.work_j_per_m2, self.range_m()].map(f64::ln)
+    }
+
+    /// The same with other values of the first of them.
+    pub(crate) fn with_logarithms(self, logarithms: &[f64]) -> Self {
+        let value = |place: usize| logarithms.get(place).map(|ln| ln.exp());
+        Self {
+            work_j_per_m2: value(0).unwrap_or(self.work_j_per_m2),
+            range_m: Some(value(1).unwrap_or(self.range_m())),
+            stress_pa: None,
+            ..self
+        }
+    }
+
     /// Whether the attraction moves the edge of the contact; `None` in its place is a constant pull, or none.
     pub fn attraction(&self, indenter: &dyn Indenter, relaxed_per_pa: f64) -> Option<Attraction> {
         let range_m = match (self.model, indenter.tip_radius_m()) {
