@@ -147,8 +147,8 @@ def identify(
     branches: Literal["auto"] | int | None = None,
     law: Sequence[Literal["auto", "power-law", "standard-solid", "fractional-zener", "fractional-maxwell", "kelvin-voigt", "kww", "series"]] | None = None,
     samples: int | None = 0,
-    approach_zero: Literal["first-contact", "unknown"] | None = None,
     attraction: Literal["known", "work", "work-and-range"] | None = "known",
+    approach_zero: Literal["first-contact", "unknown"] | None = None,
     curve: Sequence[str] | None = None,
     poisson_ratio: float | None = None,
     bulk_modulus: Quantity | Mapping[str, Any] | None = None,
@@ -185,8 +185,8 @@ def identify(
         branches: Branches of the series: a number, or `auto` (the default): as many as the data require. "auto", or an integer from 1 to 6.
         law: Laws between which the data choose: `auto` for all, a name, or a list of names. Left out: all of force curves, and series of cycles and histories. An array, each item "auto", "power-law", "standard-solid", "fractional-zener", "fractional-maxwell", "kelvin-voigt", "kww" or "series".
         samples: How often the material is found again with the noise drawn anew. Of cycles, a history or a single curve these are replicas of the material, from which a sweep has a band about its loss. An integer from 0 to 1000.
-        approach_zero: What smallest, largest and mean approaches of cycles are counted from; left out: unknown in a table of `analyse`, from first contact in any other. Where it is unknown they are not data, and the mean of a prescribed approach is that of `[drive]`. "first-contact" or "unknown".
         attraction: What of the attraction is sought beside the material, from the values in `[adhesion]` on. "known", "work" or "work-and-range".
+        approach_zero: What smallest, largest and mean approaches of cycles are counted from; left out: unknown in a table of `analyse`, from first contact in any other. Where it is unknown they are not data, and the mean of a prescribed approach is that of `[drive]`. "first-contact" or "unknown".
         curve: A force curve: a table with `time_s`, `force_n` and `indentation_m`, or with `piezo_m` and `deflection_m` or `force_n`; several curves where it has a column `curve`. Or a list of such files. Where the contact begins is found. An array, each item a string.
         poisson_ratio: Poisson ratio, constant in time. A number above -1 and at most 0.5.
         bulk_modulus: Bulk modulus in place of the Poisson ratio, which then increases as the body relaxes: constant in time, or a table with the series of a relaxing one. A stress or modulus above zero, or a table with a series.

@@ -200,6 +200,10 @@ pub fn used(kind: Option<Kind>, files: &[toml::Table]) -> BTreeSet<String> {
             (has("edge", "periodic"), "surface that repeats itself"),
             // The exact problem of a curve is solved on springs.
             (table.contains_key("curve"), "axisymmetric engine"),
+            (
+                table.contains_key("drag_height"),
+                "drag that falls with the height",
+            ),
             (table.contains_key("layer"), "layer"),
             (table.contains_key("adhesion"), "adhesion"),
             (table.contains_key("measured_temperatures"), "master curve"),

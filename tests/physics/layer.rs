@@ -1,9 +1,9 @@
 //! A layer on a base, rigid or not, on cells, against the dual integral equation, closed forms and correspondence.
 
 use crate::prelude::*;
+use contact_dma::contact::axisymmetric::layer::{ElasticContact, LayerContact};
 use contact_dma::contact::half_space::layer::{Base, Layer, LayerInfluence, YieldingBase};
 use contact_dma::engine::{EngineBuilder, LargestContact};
-use contact_dma::reference::layer::{ElasticContact, LayerContact};
 
 const COMPLIANCE_PER_PA: f64 = 4e-10;
 const A_OVER_H: [f64; 7] = [0.01, 0.1, 0.3, 1.0, 2.0, 4.0, 10.0];

@@ -1,7 +1,7 @@
 //! A flat punch on cells, whose rim is a staircase: as stiff as the face on any grid, and its loss inside the bar on every one.
 
 use crate::prelude::*;
-use contact_dma::reference::layer::LayerContact;
+use contact_dma::contact::axisymmetric::layer::LayerContact;
 
 const RADIUS_M: f64 = 1e-3;
 const OMEGA: f64 = 0.00844;

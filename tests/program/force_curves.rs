@@ -148,15 +148,42 @@ fn a_law_is_found_from_a_history_and_from_a_piezo_and_a_cantilever() {
             |[t, force_n, depth_m]| [*t, 1e6 * (depth_m + force_n / 0.1), 1e9 * force_n / 0.1],
         ),
     );
-    place.put("a.toml", IDENTIFY.replace("CURVE", "a.csv"));
-    let with_spring = "[instrument]\nspring_constant = \"0.1 N/m\"\n[material]";
+    // The same as its detector gives it, 20 mV a nanometre.
     place.put(
-        "b.toml",
-        IDENTIFY
-            .replace("CURVE", "b.csv")
-            .replace("[material]", with_spring),
+        "c.csv",
+        table(
+            "time_s,piezo_um,deflection_v",
+            &rows,
+            |[t, force_n, depth_m]| {
+                [
+                    *t,
+                    1e6 * (depth_m + force_n / 0.1),
+                    0.02 * 1e9 * force_n / 0.1,
+                ]
+            },
+        ),
     );
-    for curve in ["a", "b"] {
+    place.put("a.toml", IDENTIFY.replace("CURVE", "a.csv"));
+    let with_spring = "[instrument]\nspring_constant = \"0.1 N/m\"\n";
+    let with_detector = format!("{with_spring}sensitivity = \"50 nm/V\"\n");
+    for (curve, instrument) in [("b", with_spring), ("c", &with_detector)] {
+        let csv = format!("{curve}.csv");
+        let text = IDENTIFY.replace("CURVE", &csv);
+        place.put(&format!("{curve}.toml"), format!("{text}{instrument}"));
+    }
+    let without = place
+        .text("c.toml")
+        .replace("sensitivity = \"50 nm/V\"", "");
+    place.put("without.toml", without);
+    let refusal = place.refused("identify without.toml --out without");
+    for part in [
+        "c.csv:1",
+        "a deflection in volts, and no sensitivity",
+        "50 nm/V",
+    ] {
+        assert!(refusal.contains(part), "{refusal}");
+    }
+    for curve in ["a", "b", "c"] {
         found_is_the_gel(&place, curve);
     }
     // The same again from what was written of it.
@@ -180,6 +207,57 @@ fn a_law_is_found_from_a_history_and_from_a_piezo_and_a_cantilever() {
         loads.into_iter().fold(0.0, f64::max)
     };
     assert!((largest("found") / largest("gel") - 1.0).abs() < 0.01);
+}
+
+/// A drag that is a half 0.5 um above the surface, known or found, does not get into the law.
+#[test]
+fn a_drag_that_falls_with_the_height_is_taken_off_or_found() {
+    let place = Place::new();
+    place.put("gel.toml", GEL);
+    place.done("simulate gel.toml --quiet --out gel");
+    let rows = measured(&place, "gel");
+    // A twentieth of the force at the deepest point; the surface is at 3 um, and the speed 1 um/s on the ways and none in the hold.
+    let dragged = |[t, force_n, depth_m]: &[f64; 3]| {
+        let speed = match t - 0.5 {
+            t if t < 0.4999 => 1e-6,
+            t if t < 0.5001 => 5e-7,
+            t if t < 1.4999 => 0.0,
+            t if t < 1.5001 => -5e-7,
+            _ => -1e-6,
+        };
+        let height_m = (3e-6 - depth_m).max(0.0);
+        [
+            *t,
+            force_n + 5e-5 * speed / (1.0 + height_m / 5e-7),
+            *depth_m,
+        ]
+    };
+    for (curve, instrument) in [
+        ("known", "drag = \"5e-5 N s/m\"\ndrag_height = \"0.5 um\""),
+        ("sought", "drag_height = \"0.5 um\""),
+    ] {
+        place.put(&format!("{curve}.csv"), table(CURVE, &rows, dragged));
+        let text = IDENTIFY.replace("CURVE", &format!("{curve}.csv"));
+        place.put(
+            &format!("{curve}.toml"),
+            format!("{text}[instrument]\n{instrument}\n"),
+        );
+        found_is_the_gel(&place, curve);
+    }
+    let found = place.json("sought/summary.json");
+    let (drag, is_inside) = of(&found["instrument"]["drag_n_s_per_m"], 5e-5);
+    assert!(is_inside && (drag / 5e-5 - 1.0).abs() < 0.1, "{drag:e}");
+    // One that is said to be the same at all heights is not.
+    let text = place
+        .text("known.toml")
+        .replace("drag_height", "# drag_height");
+    place.put("constant.toml", text);
+    place.done("identify constant.toml --quiet --out constant");
+    let misfit = |folder: &str| {
+        let found = place.json(&format!("{folder}/summary.json"));
+        found["reduced_chi_squared"].as_f64().unwrap()
+    };
+    assert!(misfit("constant") > 2.0 * misfit("known"));
 }
 
 #[test]

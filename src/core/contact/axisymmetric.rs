@@ -14,6 +14,7 @@
 //! 400 springs. Widths may differ along the row: finer where the edge moves.
 
 mod abel;
+pub mod layer;
 
 use multiversion::multiversion;
 

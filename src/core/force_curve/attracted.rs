@@ -12,14 +12,15 @@ use crate::indenter::Indenter;
 use crate::material::Creep;
 use crate::sweep::plan::adhesion::AdhesionPlan;
 
-/// Springs over the contact at the deepest indentation: on the way to a solution, and least and most of the solution, whose zone of
-/// attraction has so many.
-const ON_THE_WAY: f64 = 150.0;
-const FEWEST: f64 = 400.0;
-const MOST: f64 = 1600.0;
-const IN_ZONE: f64 = 12.0;
+/// Springs over the contact at the deepest indentation and parts of a step between two points, on the way to a solution.
+const ON_THE_WAY: (f64, usize) = (150.0, 3);
 
-/// Parts of a step while the contact is forming, which begins by a jump.
+/// At the solution: least and most springs, whose zone of attraction has so many.
+const FEWEST: f64 = 300.0;
+const MOST: f64 = 800.0;
+const IN_ZONE: f64 = 6.0;
+
+/// Parts of a step there: where an edge crosses more than its zone in one, the force depends on rounding.
 const PARTS: usize = 4;
 
 /// How far a row reaches, in radii of the contact without attraction: at first, and by which ratio farther as long as the contact reaches its end.
@@ -60,7 +61,7 @@ impl Attracted {
             parts,
             contact: contact.clone(),
         };
-        Some([(ON_THE_WAY, 1), (near, PARTS)].map(of))
+        Some([ON_THE_WAY, (near, PARTS)].map(of))
     }
 
     /// The force (N) at every point of a contact of this compliance; `None` where it could not be followed.
@@ -94,8 +95,6 @@ impl Attracted {
         (time_s, indentation_m): (&[f64], &[f64]),
     ) -> Result<Vec<f64>, ContactError> {
         let mut force_n = vec![0.0; time_s.len()];
-        let deeper = |a: &usize, b: &usize| indentation_m[*a].total_cmp(&indentation_m[*b]);
-        let deepest = (0..self.contact.end).max_by(deeper).unwrap_or(0);
         let mut weights = StepWeights::new(body, 0.0);
         let mut before: Option<usize> = None;
         for point in 0..self.contact.end {
@@ -103,14 +102,13 @@ impl Attracted {
                 continue;
             }
             let last = before.unwrap_or(point.saturating_sub(1));
-            let parts = if point <= deepest { self.parts } else { 1 };
-            let step_s = (time_s[point] - time_s[last]) / parts as f64;
+            let step_s = (time_s[point] - time_s[last]) / self.parts as f64;
             if (weights.step_s() - step_s).abs() > 1e-9 * step_s {
                 weights = StepWeights::new(body, step_s);
             }
-            for part in 1..=parts {
+            for part in 1..=self.parts {
                 let moved_m = indentation_m[point] - indentation_m[last];
-                let depth_m = indentation_m[last] + moved_m * part as f64 / parts as f64;
+                let depth_m = indentation_m[last] + moved_m * part as f64 / self.parts as f64;
                 springs.step(&weights, Prescribed::ApproachM(depth_m))?;
             }
             if point >= self.contact.start {

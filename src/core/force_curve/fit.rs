@@ -111,6 +111,22 @@ pub(super) fn fit_knowing(
     known: Option<&Known>,
     interrupt: &AtomicBool,
 ) -> Result<CurveFit, CurveError> {
+    if plan.probe.drag_height_m.is_none() {
+        return fit_above(plan, curve, (None, known), interrupt);
+    }
+    // The drag depends on where the surface is, which only a fit tells well enough.
+    let found = fit_above(plan, curve, (None, None), interrupt)?;
+    let surface_m = Some(found.contact_point_m.value);
+    fit_above(plan, curve, (surface_m, None), interrupt)
+}
+
+/// The same where the drag counts its height from a surface (m), or from a first estimate of it.
+fn fit_above(
+    plan: &CurvePlan,
+    curve: &ForceCurve,
+    (surface_m, known): (Option<f64>, Option<&Known>),
+    interrupt: &AtomicBool,
+) -> Result<CurveFit, CurveError> {
     let count = curve.time_s.len();
     if count < FEWEST {
         return Err(CurveError::TooFew(count));
@@ -131,7 +147,7 @@ pub(super) fn fit_knowing(
         touch.contact_point_m = points.indentation_m[middle];
         touch.before = about.start;
     }
-    points.drag_falls(plan.probe, touch.contact_point_m);
+    points.drag_falls(plan.probe, surface_m.unwrap_or(touch.contact_point_m));
     let pulled = match adhesion {
         None => pulled(&points, &touch),
         Some(_) => torn(&points, &touch),

@@ -10,6 +10,7 @@ use super::fit::CurvePlan;
 use super::record::{Points, span};
 use super::springs::Springs;
 use super::touch::{Nuisance, Touch, nuisances};
+use crate::identify::SoughtAttraction;
 use crate::identify::laws::clamped;
 use crate::material::law::{Form, Scale};
 use crate::numerics::levenberg_marquardt::{
@@ -52,8 +53,12 @@ pub(super) enum Answer {
     Attracted([Attracted; 2]),
 }
 
-/// By how many times a start may be farther from the curve than the best and be followed too.
+/// By how many times a start may be farther from the curve than the best and be followed too, and how many are.
 const NEARLY: f64 = 4.0;
+const FOLLOWED: usize = 2;
+
+/// Starts of a work of adhesion that is sought, over what is expected.
+const WORKS: [f64; 3] = [0.4, 1.0, 2.5];
 
 /// A curve as a least squares problem for any law.
 pub(super) struct Fitted<'a> {
@@ -207,17 +212,30 @@ impl<'a> Fitted<'a> {
             form,
             is_near: false,
         };
-        let attraction = (self.plan.attraction).logarithms(self.plan.contact.adhesion.as_ref());
-        let starts = form.starts(modulus_pa, window_s).into_iter();
-        let starts = starts.filter_map(|mut start| {
-            start.push(contact_point_m / self.scale_m);
-            start.extend(&attraction);
-            self.scaled(form, start)
-        });
-        let mut starts: Vec<(f64, Vec<f64>)> = starts.collect();
+        let expected = (self.plan.attraction).logarithms(self.plan.contact.adhesion.as_ref());
+        let works: &[f64] = match self.plan.attraction {
+            SoughtAttraction::Known => &[1.0],
+            SoughtAttraction::Work | SoughtAttraction::WorkAndRange => &WORKS,
+        };
+        // Of every start of the law the best of the works.
+        let best = |start: Vec<f64>| {
+            let all = works.iter().filter_map(|factor| {
+                let mut start = start.clone();
+                start.push(contact_point_m / self.scale_m);
+                start.extend(&expected);
+                if let Some(work) = start.get_mut(form.scales().count() + 1) {
+                    *work += f64::ln(*factor);
+                }
+                self.scaled(form, start)
+            });
+            all.min_by(|a, b| a.0.total_cmp(&b.0))
+        };
+        let starts = form.starts(modulus_pa, window_s);
+        let mut starts: Vec<_> = starts.into_iter().filter_map(best).collect();
         starts.sort_by(|a, b| a.0.total_cmp(&b.0));
         let nearly = NEARLY * starts.first()?.0;
-        let all = starts.iter().take(2).filter(|(left, _)| *left <= nearly);
+        let all = starts.iter().take(FOLLOWED);
+        let all = all.filter(|(left, _)| *left <= nearly);
         let found = all.filter_map(|(_, start)| minimise(&problem, start, ON_THE_WAY));
         found.min_by(|a, b| a.squares().total_cmp(&b.squares()))
     }
@@ -270,7 +288,8 @@ impl<'a> Fitted<'a> {
         })
     }
 
-    /// A start with all its moduli multiplied so that it comes nearest to the curve, and the sum of squares that are left.
+    /// A start with all its moduli, and the work of adhesion where it is sought, multiplied so that it comes nearest to the curve, and the
+    /// sum of squares that are left.
     fn scaled(&self, form: Form, mut start: Vec<f64>) -> Option<(f64, Vec<f64>)> {
         let response = self.response(form, &start, false)?;
         let weighed = |force: &[f64]| {
@@ -284,6 +303,10 @@ impl<'a> Fitted<'a> {
             if scale == Scale::Logarithm(Dimension::Stress) {
                 *unknown += factor.max(1e-3).ln();
             }
+        }
+        // Moduli and work in proportion leave every displacement as it is.
+        if let Some(work) = start.get_mut(form.scales().count() + 1) {
+            *work += factor.max(1e-3).ln();
         }
         Some((left, start))
     }

@@ -172,7 +172,15 @@ impl ForceCurve {
             points.time_s.push(mean(&self.time_s));
             points.force_n.push(mean(&self.force_n));
             points.indentation_m.push(mean(indentation_m));
-            let around = from.saturating_sub(1)..(to + 1).min(count);
+            // One sample more on either side, but none beyond a corner, where the speed is another.
+            let behind = corners.partition_point(|corner| corner.sample <= from);
+            let begin = behind.checked_sub(1).map_or(0, |last| corners[last].sample);
+            let end = corners.get(behind).map_or(count, |next| next.sample);
+            let around = from.saturating_sub(1).max(begin)..(to + 1).min(end);
+            let around = match around.len() {
+                1 => from.saturating_sub(1)..(to + 1).min(count),
+                _ => around,
+            };
             let line = Line::of(&self.time_s[around.clone()], &travel_m[around]);
             points.speed_m_per_s.push(line.slope);
             points.samples.push((to - from) as f64);

@@ -10,12 +10,12 @@
 
 use std::f64::consts::PI;
 
+use crate::contact::axisymmetric::layer::LayerContact;
 use crate::contact::half_space::layer::Layer;
 use crate::indenter::Axisymmetric;
 use crate::material::Relaxation;
 use crate::numerics::polynomial::lagrange;
 use crate::numerics::roots::{ALL_DIGITS, bisect};
-use crate::reference::layer::LayerContact;
 
 /// Springs over the contact at the deepest indentation, each in the middle of its part.
 const SPRINGS: usize = 72;

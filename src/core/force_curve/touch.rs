@@ -29,8 +29,10 @@ const FALLING: f64 = 2.0;
 /// So many points are left out before and behind it.
 const ABOUT: usize = 3;
 
-/// How near (standard deviations of a point) the mean of some points has come back to the line of the end.
-const AS_AT_THE_END: f64 = 2.0;
+/// How near (standard deviations of a point) a point is to the line of those behind it where nothing touches; and the most that this line
+/// may change beside the drift, as a part of the pull.
+const ON_THE_LINE: f64 = 4.0;
+const FLAT: f64 = 0.1;
 
 /// The part of the depth above which an indenter has not been retracted yet.
 const RETRACTED: f64 = 0.95;
@@ -158,7 +160,7 @@ pub(super) fn pulled(points: &Points, touch: &Touch) -> Option<Range<usize>> {
     if touch.before < FEWEST_BEFORE {
         return None;
     }
-    let retraction = Retraction::of(points)?;
+    let retraction = Retraction::of(points, touch.before)?;
     let before_n = mean(&points.force_n[..touch.before])?;
     let largest_n = largest(&points.force_n) - before_n;
     // Drift and drag have moved the baseline of the end, but not by much.
@@ -174,7 +176,7 @@ pub(super) fn pulled(points: &Points, touch: &Touch) -> Option<Range<usize>> {
 /// The points behind the largest pull, where the contact tears off, down to where the force has come back; `None` where it stays in contact.
 pub(super) fn torn(points: &Points, touch: &Touch) -> Option<Range<usize>> {
     let before_n = mean(&points.force_n[..touch.before]).unwrap_or(0.0);
-    let retraction = Retraction::of(points)?;
+    let retraction = Retraction::of(points, touch.before)?;
     let least_n = points.force_n[retraction.pull];
     let is_torn = retraction.after_n - least_n > 0.5 * (before_n - least_n);
     let left_out = retraction.pull + 1..retraction.back;
@@ -191,23 +193,38 @@ struct Retraction {
 }
 
 impl Retraction {
-    fn of(points: &Points) -> Option<Self> {
+    fn of(points: &Points, before: usize) -> Option<Self> {
         let force_n = &points.force_n;
         let deepest = (0..force_n.len())
             .max_by(|a, b| points.indentation_m[*a].total_cmp(&points.indentation_m[*b]))?;
         let pull = (deepest..force_n.len()).min_by(|a, b| force_n[*a].total_cmp(&force_n[*b]))?;
-        let last = force_n.len() - (force_n.len() - deepest).min(FEWEST_BEFORE);
-        let after_n = mean(&force_n[last..])?;
-        // The line of the last third says what the force is out of contact.
-        let tail = (pull + 2 * (force_n.len() - pull) / 3).min(force_n.len() - 1)..force_n.len();
-        let line = Line::of(&points.time_s[tail.clone()], &force_n[tail.clone()]);
-        let is_flat = tail.len() >= 2 * FEWEST_BEFORE && line.scatter < 2.0 * points.noise_n;
-        let is_back = |k: &usize| {
-            let off = (*k..*k + FEWEST_BEFORE).map(|k| force_n[k] - line.at(points.time_s[k]));
-            off.sum::<f64>().abs() / (FEWEST_BEFORE as f64) < AS_AT_THE_END * line.scatter
+        let count = force_n.len();
+        let after_n = mean(&force_n[count - (count - deepest).min(FEWEST_BEFORE)..])?;
+        // Out of contact the force is on a line, from which the points of the end go backwards.
+        let line = |from: usize| Line::of(&points.time_s[from..], &force_n[from..]);
+        let is_on = |k: &usize| {
+            let sigma_n = points.noise_n / points.samples[*k].sqrt();
+            (force_n[*k] - line(k + 1).at(points.time_s[*k])).abs() < ON_THE_LINE * sigma_n
         };
-        let back = (pull + 1..tail.start).find(is_back).filter(|_| is_flat);
-        let back = back.map_or(force_n.len(), |back| (back + ABOUT).min(tail.start));
+        let last = count.saturating_sub(FEWEST_BEFORE).max(pull);
+        let back = (pull + 1..last)
+            .rev()
+            .take_while(is_on)
+            .last()
+            .unwrap_or(last);
+        // A drift goes on as it was before contact.
+        let drift = match before < FEWEST_BEFORE {
+            true => 0.0,
+            false => Line::of(&points.time_s[..before], &force_n[..before]).slope,
+        };
+        let rest_s = points.time_s[count - 1] - points.time_s[back];
+        let changes_n = (line(back).slope - drift) * rest_s;
+        let is_flat = changes_n.abs() < FLAT * (after_n - force_n[pull]);
+        let back = if is_flat {
+            (back + ABOUT).min(last)
+        } else {
+            count
+        };
         Some(Self {
             deepest,
             pull,

@@ -6,7 +6,6 @@ pub mod adhesive;
 mod direct_sum;
 pub mod elastic;
 pub mod elliptic;
-pub mod layer;
 pub mod power_law;
 pub mod steady;
 pub mod step_load;

@@ -11,7 +11,7 @@ use super::section::Section;
 use super::text::DELIMITERS;
 use super::units::{self, Scale};
 use crate::input::diagnostic::Diagnostic;
-use crate::quantity::Dimension::{self, AngularFrequency, Frequency, Temperature, Time};
+use crate::quantity::Dimension::{self, AngularFrequency, Frequency, Temperature, Time, Voltage};
 
 /// A column that is looked for.
 #[derive(Debug, Clone, Copy)]
@@ -110,6 +110,14 @@ impl Column {
         }
     }
 
+    /// The same column, where a name with a unit of something else is not one of it.
+    pub(crate) const fn by_unit(self) -> Self {
+        Self {
+            unit_decides: true,
+            ..self
+        }
+    }
+
     /// A name, a unit that it may have, and the name with its SI unit, as this program writes it: `creep_compliance_per_pa`.
     fn examples(&self) -> (&'static str, &'static str, String) {
         let (name, dimension) = (self.names.first().unwrap_or(&""), self.dimension);
@@ -191,6 +199,8 @@ impl Column {
                     _ => Some(way.joined(joined).into_iter().find(is_joined)?),
                 };
                 let is_own = match &unit {
+                    // A deflection is a length unless it is in volts.
+                    None if self.dimension == Some(Voltage) => false,
                     None => (self.dimension, &*way.written) != (Some(Time), "T"),
                     Some(unit) => (way.is_sure && self.is_sure(&name)) || fits(unit),
                 };

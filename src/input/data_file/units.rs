@@ -109,7 +109,7 @@ pub(super) fn joined(suffix: &str) -> [String; 3] {
         return Default::default();
     }
     let spelt = |word: &str| {
-        let usual = ["Pa", "kPa", "MPa", "GPa", "N", "kN", "Hz", "J"];
+        let usual = ["Pa", "kPa", "MPa", "GPa", "N", "kN", "Hz", "J", "V", "mV"];
         let known = usual.iter().find(|usual| usual.eq_ignore_ascii_case(word));
         known.copied().unwrap_or(word).to_owned()
     };

@@ -14,6 +14,16 @@ const CURVE: Column = Column::pure(
 )
 .optional();
 
+/// Of a cantilever, as a length or as its detector gives it.
+const DEFLECTION: [&str; 6] = [
+    "deflection",
+    "cantilever_deflection",
+    "vertical_deflection",
+    "cantilever",
+    "deflection_signal",
+    "photodetector",
+];
+
 #[rustfmt::skip]
 const COLUMNS: [Column; 8] = [
     TIME,
@@ -21,11 +31,11 @@ const COLUMNS: [Column; 8] = [
     Column::new(&["indentation", "depth", "approach", "penetration", "tip_sample_separation", "disp"], Length, "indentations")
         .by_first_name().optional(),
     Column::new(&["piezo", "z_piezo", "piezo_position", "height", "z"], Length, "piezo positions").by_first_name().optional(),
-    Column::new(&["deflection", "cantilever_deflection", "vertical_deflection", "cantilever"], Length, "deflections").by_first_name().optional(),
+    Column::new(&DEFLECTION, Length, "deflections").by_first_name().optional(),
     CURVE,
     // That of a load in a history of this program is the error of its computation.
     Column::new(&["force"], Force, "errors of forces").of_errors(Holds::Errors, "errors of forces").optional(),
-    Column::new(&["deflection_signal", "deflection_v", "photodetector", "photodiode"], Voltage, "deflection signals").by_first_name().optional(),
+    Column::new(&DEFLECTION, Voltage, "deflections in volts").by_unit().by_first_name().optional(),
 ];
 
 /// The curves of a table that messages call `name`.

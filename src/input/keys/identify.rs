@@ -20,8 +20,8 @@ use contact_dma_core::keys;
 
 static IDENTIFY_TABLE: Rows = Rows {
     means: " What was measured: cycles or a history under a drive that is known, or force curves, which have their own.",
-    keys: &[&[IDENTIFY_BRANCHES, LAW, SAMPLES]],
-    others: Others::OneList(&[&[&[DATA, APPROACH_ZERO, ATTRACTION]], &[&[CURVE]]]),
+    keys: &[&[IDENTIFY_BRANCHES, LAW, SAMPLES, ATTRACTION]],
+    others: Others::OneList(&[&[&[DATA, APPROACH_ZERO]], &[&[CURVE]]]),
 };
 
 static DRIVEN: Rows = Rows {
