@@ -149,7 +149,12 @@ impl Work {
 
 /// A text without the marks of BibTeX.
 fn plain(text: &str) -> String {
-    let letters = [("{\\ss}", "ß"), ("\\v{c}", "č"), ("--", "-")];
+    let letters = [
+        ("{\\ss}", "ß"),
+        ("{\\'o}", "ó"),
+        ("\\v{c}", "č"),
+        ("--", "-"),
+    ];
     let text = letters
         .iter()
         .fold(text.to_owned(), |text, (mark, letter)| {

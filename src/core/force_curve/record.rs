@@ -56,6 +56,8 @@ pub struct Points {
     pub path_s: Vec<f64>,
     pub path_m: Vec<f64>,
     pub on_path: Vec<usize>,
+    /// Points before which others are left out.
+    pub gaps: Vec<usize>,
     /// Standard deviation of the force of a sample, as its neighbours tell it.
     pub noise_n: f64,
 }
@@ -107,7 +109,10 @@ impl Points {
         ] {
             column.drain(points.clone());
         }
-        self.on_path.drain(points);
+        self.on_path.drain(points.clone());
+        let behind = self.gaps.iter_mut().filter(|gap| **gap >= points.end);
+        behind.for_each(|gap| *gap -= points.len());
+        self.gaps.push(points.start);
         on_path
     }
 }
@@ -135,6 +140,7 @@ impl ForceCurve {
             path_s: Vec::new(),
             path_m: Vec::new(),
             on_path: Vec::new(),
+            gaps: Vec::new(),
             noise_n,
         };
         let size = count.div_ceil(POINTS);

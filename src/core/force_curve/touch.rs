@@ -37,6 +37,9 @@ const FLAT: f64 = 0.1;
 /// The part of the depth above which an indenter has not been retracted yet.
 const RETRACTED: f64 = 0.95;
 
+/// From which difference on a speed is another one, as a part of the fastest.
+const OTHER: f64 = 0.3;
+
 /// What the instrument adds to the force.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Nuisance {
@@ -168,8 +171,11 @@ pub(super) fn pulled(points: &Points, touch: &Touch) -> Option<Range<usize>> {
     let is_pulled =
         before_n.min(after_n) - least_n > PULL * largest_n || before_n - after_n > HELD * largest_n;
     let depth_m = points.indentation_m[retraction.deepest] - touch.contact_point_m;
-    let is_deep = |d: &f64| *d > touch.contact_point_m + RETRACTED * depth_m;
-    let last = points.indentation_m.iter().rposition(is_deep)?;
+    let deep_m = touch.contact_point_m + RETRACTED * depth_m;
+    let speeds = &points.speed_m_per_s;
+    let fastest = speeds.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
+    let is_before = |k: &usize| points.indentation_m[*k] > deep_m && speeds[*k] > -OTHER * fastest;
+    let last = (0..speeds.len()).rfind(is_before)?;
     is_pulled.then(|| last + 1..retraction.back)
 }
 
@@ -267,7 +273,7 @@ pub(super) fn nuisances(points: &Points, touch: &Touch, has_drag: bool) -> Vec<N
     // In contact the law takes what another speed changes.
     let outside = points.indentation_m.iter().zip(speeds);
     let outside = outside.filter(|(d, _)| **d < touch.contact_point_m);
-    let others = outside.filter(|(_, v)| (**v - approach).abs() > 0.3 * fastest);
+    let others = outside.filter(|(_, v)| (**v - approach).abs() > OTHER * fastest);
     if has_drag && others.count() >= FEWEST_BEFORE {
         all.push(Nuisance::Drag);
     }

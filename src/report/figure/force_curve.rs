@@ -45,7 +45,12 @@ pub fn figures(report: &CurvesReport<'_>) -> Vec<Figure> {
 /// Measured and computed forces over something.
 fn both(fit: &CurveFit, over: &[f64]) -> [Trace; 2] {
     let measured = over.iter().copied().zip(fit.points.force_n.iter().copied());
-    let computed = over.iter().copied().zip(fit.computed_n.iter().copied());
+    // Where points are left out the law is not drawn either.
+    let computed = over.iter().zip(&fit.computed_n).enumerate();
+    let computed = computed.flat_map(|(k, (x, force_n))| {
+        let gap = fit.points.gaps.contains(&k).then(|| Point::new(*x, None));
+        gap.into_iter().chain([Point::new(*x, *force_n)])
+    });
     [
         Trace::symbols(measured)
             .marker(Marker::Disc)
