@@ -517,3 +517,47 @@ fn a_layer_far_thicker_than_its_contact_is_a_half_space() {
         [1e-4, 1e-3].map(|thickness_m| half_space / springs_of(Some(thickness_m)) - 1.0);
     assert!(near > 5.0 * far && far > 0.0 && near < 0.03, "{near} {far}");
 }
+
+/// Ramps, holds and jumps of anything: what a detector writes that has lost its cantilever, or a file of something else.
+#[test]
+fn curves_of_anything_are_fitted_or_refused() {
+    let outcomes = (0..120_u64).into_par_iter().map(|number| {
+        let mut random = Random(number);
+        let mut curve = ForceCurve::default();
+        let (mut depth_m, mut force_n) = (0.0, 0.0);
+        let noise_n = random.power_of_ten(-12.0, -9.0);
+        for _ in 0..1 + (5.0 * random.unit()) as usize {
+            let [speed, change] = [1e-8, 1e-10].map(|most| match random.unit() < 0.3 {
+                true => 0.0,
+                false => random.between(-most, most),
+            });
+            if random.unit() < 0.3 {
+                force_n += random.between(-5e-9, 5e-9);
+            }
+            for _ in 0..4 + (60.0 * random.unit()) as usize {
+                depth_m += speed;
+                force_n += change;
+                curve.time_s.push(0.01 * curve.time_s.len() as f64);
+                curve.indentation_m.push(depth_m);
+                curve.force_n.push(force_n + noise_n * random.gauss());
+            }
+        }
+        let mut plan = CurvePlan {
+            forms: vec![Form {
+                law: Law::StandardSolid,
+                branches: 1,
+            }],
+            ..plan(Arc::new(ball(2.5e-6)))
+        };
+        if number % 30 == 0 {
+            plan.contact.adhesion = Some(AdhesionPlan {
+                range_m: Some(1e-8),
+                ..AdhesionPlan::of_work(1e-5)
+            });
+        }
+        let found = fit(&plan, &curve, &AtomicBool::new(false));
+        found.is_ok_and(|found| found.laws.reduced_chi_squared.is_finite())
+    });
+    let fitted: Vec<bool> = outcomes.collect();
+    assert!(fitted.contains(&true) && fitted.contains(&false));
+}

@@ -176,7 +176,8 @@ pub(super) fn pulled(points: &Points, touch: &Touch) -> Option<Range<usize>> {
     let fastest = speeds.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
     let is_before = |k: &usize| points.indentation_m[*k] > deep_m && speeds[*k] > -OTHER * fastest;
     let last = (0..speeds.len()).rfind(is_before)?;
-    is_pulled.then(|| last + 1..retraction.back)
+    let left_out = last + 1..retraction.back;
+    (is_pulled && !left_out.is_empty()).then_some(left_out)
 }
 
 /// The points behind the largest pull, where the contact tears off, down to where the force has come back; `None` where it stays in contact.
