@@ -171,18 +171,6 @@ fn a_law_is_found_from_a_history_and_from_a_piezo_and_a_cantilever() {
         let text = IDENTIFY.replace("CURVE", &csv);
         place.put(&format!("{curve}.toml"), format!("{text}{instrument}"));
     }
-    let without = place
-        .text("c.toml")
-        .replace("sensitivity = \"50 nm/V\"", "");
-    place.put("without.toml", without);
-    let refusal = place.refused("identify without.toml --out without");
-    for part in [
-        "c.csv:1",
-        "a deflection in volts, and no sensitivity",
-        "50 nm/V",
-    ] {
-        assert!(refusal.contains(part), "{refusal}");
-    }
     for curve in ["a", "b", "c"] {
         found_is_the_gel(&place, curve);
     }
@@ -207,6 +195,25 @@ fn a_law_is_found_from_a_history_and_from_a_piezo_and_a_cantilever() {
         loads.into_iter().fold(0.0, f64::max)
     };
     assert!((largest("found") / largest("gel") - 1.0).abs() < 0.01);
+}
+
+#[test]
+fn a_deflection_in_volts_wants_the_sensitivity() {
+    let place = Place::new();
+    place.put("c.csv", "time_s,piezo_um,deflection_v\n0,0,0\n");
+    let text = IDENTIFY.replace("CURVE", "c.csv");
+    place.put(
+        "without.toml",
+        format!("{text}[instrument]\nspring_constant = \"0.1 N/m\"\n"),
+    );
+    let refusal = place.refused("identify without.toml --out without");
+    for part in [
+        "c.csv:1",
+        "a deflection in volts, and no sensitivity",
+        "50 nm/V",
+    ] {
+        assert!(refusal.contains(part), "{refusal}");
+    }
 }
 
 /// A drag that is a half 0.5 um above the surface, known or found, does not get into the law.

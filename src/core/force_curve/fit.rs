@@ -115,7 +115,11 @@ pub(super) fn fit_knowing(
         return fit_above(plan, curve, (None, known), interrupt);
     }
     // The drag depends on where the surface is, which only a fit tells well enough.
-    let found = fit_above(plan, curve, (None, None), interrupt)?;
+    let once = CurvePlan {
+        samples: 0,
+        ..plan.clone()
+    };
+    let found = fit_above(&once, curve, (None, None), interrupt)?;
     let surface_m = Some(found.contact_point_m.value);
     fit_above(plan, curve, (surface_m, None), interrupt)
 }

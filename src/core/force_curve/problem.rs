@@ -10,7 +10,6 @@ use super::fit::CurvePlan;
 use super::record::{Points, span};
 use super::springs::Springs;
 use super::touch::{Nuisance, Touch, nuisances};
-use crate::identify::SoughtAttraction;
 use crate::identify::laws::clamped;
 use crate::material::law::{Form, Scale};
 use crate::numerics::levenberg_marquardt::{
@@ -213,18 +212,15 @@ impl<'a> Fitted<'a> {
             is_near: false,
         };
         let expected = (self.plan.attraction).logarithms(self.plan.contact.adhesion.as_ref());
-        let works: &[f64] = match self.plan.attraction {
-            SoughtAttraction::Known => &[1.0],
-            SoughtAttraction::Work | SoughtAttraction::WorkAndRange => &WORKS,
-        };
+        let works: &[f64] = if expected.is_empty() { &[1.0] } else { &WORKS };
         // Of every start of the law the best of the works.
         let best = |start: Vec<f64>| {
             let all = works.iter().filter_map(|factor| {
                 let mut start = start.clone();
                 start.push(contact_point_m / self.scale_m);
                 start.extend(&expected);
-                if let Some(work) = start.get_mut(form.scales().count() + 1) {
-                    *work += f64::ln(*factor);
+                if let Some(work) = work_of(form, &mut start) {
+                    *work += factor.ln();
                 }
                 self.scaled(form, start)
             });
@@ -298,18 +294,24 @@ impl<'a> Fitted<'a> {
         };
         let (computed, measured) = (weighed(&response), weighed(&self.points.force_n));
         let factor = computed.dot(&measured) / computed.norm_squared();
+        let more = factor.max(1e-3).ln();
         let left = (computed * factor - measured).norm_squared();
         for (unknown, scale) in start.iter_mut().zip(form.scales()) {
             if scale == Scale::Logarithm(Dimension::Stress) {
-                *unknown += factor.max(1e-3).ln();
+                *unknown += more;
             }
         }
         // Moduli and work in proportion leave every displacement as it is.
-        if let Some(work) = start.get_mut(form.scales().count() + 1) {
-            *work += factor.max(1e-3).ln();
+        if let Some(work) = work_of(form, &mut start) {
+            *work += more;
         }
         Some((left, start))
     }
+}
+
+/// The work of adhesion among the unknowns, behind those of the law and the contact point, where it is sought.
+fn work_of(form: Form, unknowns: &mut [f64]) -> Option<&mut f64> {
+    unknowns.get_mut(form.scales().count() + 1)
 }
 
 impl OfForm<'_> {

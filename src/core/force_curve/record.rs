@@ -79,6 +79,12 @@ impl Points {
         }
     }
 
+    /// The largest speed of the instrument, either way.
+    pub(super) fn fastest_m_per_s(&self) -> f64 {
+        let speeds = self.speed_m_per_s.iter();
+        speeds.fold(0.0, |fastest, speed| fastest.max(speed.abs()))
+    }
+
     /// Takes a drag (N s/m) off that has so large a part of it at each indentation (m).
     pub(super) fn less_drag(&mut self, drag_n_s_per_m: f64, part: impl Fn(f64) -> f64) {
         let moved = self.speed_m_per_s.iter().zip(&self.indentation_m);

@@ -173,8 +173,8 @@ pub(super) fn pulled(points: &Points, touch: &Touch) -> Option<Range<usize>> {
     let depth_m = points.indentation_m[retraction.deepest] - touch.contact_point_m;
     let deep_m = touch.contact_point_m + RETRACTED * depth_m;
     let speeds = &points.speed_m_per_s;
-    let fastest = speeds.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
-    let is_before = |k: &usize| points.indentation_m[*k] > deep_m && speeds[*k] > -OTHER * fastest;
+    let other = OTHER * points.fastest_m_per_s();
+    let is_before = |k: &usize| points.indentation_m[*k] > deep_m && speeds[*k] > -other;
     let last = (0..speeds.len()).rfind(is_before)?;
     let left_out = last + 1..retraction.back;
     (is_pulled && !left_out.is_empty()).then_some(left_out)
@@ -269,12 +269,12 @@ pub(super) fn nuisances(points: &Points, touch: &Touch, has_drag: bool) -> Vec<N
     }
     let mut all = vec![Nuisance::Offset, Nuisance::Drift];
     let speeds = &points.speed_m_per_s;
-    let fastest = speeds.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
+    let other = OTHER * points.fastest_m_per_s();
     let approach = mean(&speeds[..touch.before]).unwrap_or(0.0);
     // In contact the law takes what another speed changes.
     let outside = points.indentation_m.iter().zip(speeds);
     let outside = outside.filter(|(d, _)| **d < touch.contact_point_m);
-    let others = outside.filter(|(_, v)| (**v - approach).abs() > OTHER * fastest);
+    let others = outside.filter(|(_, v)| (**v - approach).abs() > other);
     if has_drag && others.count() >= FEWEST_BEFORE {
         all.push(Nuisance::Drag);
     }

@@ -41,23 +41,17 @@ static COLUMNS: [(Role, Column); 11] = [
     }),
     (Role::Storage, STORAGE),
     (Role::Loss, LOSS),
-    (Role::Complex, Column {
-        unit_decides: true,
-        ..modulus(&[
-            "|e*|", "|g*|", "e*", "g*", "complex_modulus", "komplexer_modul", "module_complexe", "dynamic_modulus", "复数模量",
-        ], "magnitudes of the complex modulus")
-    }),
+    (Role::Complex, modulus(&[
+        "|e*|", "|g*|", "e*", "g*", "complex_modulus", "komplexer_modul", "module_complexe", "dynamic_modulus", "复数模量",
+    ], "magnitudes of the complex modulus").by_unit()),
     (Role::TanDelta, Column::pure(&[
         "tan_delta", "tan(delta)", "tandelta", "tan_d", "tan(d)", "tan_δ", "tan(δ)", "tanδ", "loss_tangent", "loss_factor",
         "damping_factor", "verlustfaktor", "dämpfungsfaktor", "facteur_d'amortissement", "facteur_de_perte", "factor_de_pérdida",
         "factor_de_amortiguamiento", "损耗因子",
     ], "loss tangents")),
-    (Role::PhaseAngle, Column {
-        unit_decides: true,
-        ..Column::new(&[
-            "phase_angle", "phase", "delta", "δ", "phasenwinkel", "phasenverschiebungswinkel", "angle_de_phase", "相位角",
-        ], Angle, "phase angles")
-    }),
+    (Role::PhaseAngle, Column::new(&[
+        "phase_angle", "phase", "delta", "δ", "phasenwinkel", "phasenverschiebungswinkel", "angle_de_phase", "相位角",
+    ], Angle, "phase angles").by_unit()),
     (Role::Temperature, TEMPERATURE),
     (Role::Set, Column::pure(&["set", "set_number", "isotherm", "isotherm_number", "set_no", "sweep_number"], "isotherms")),
     (Role::StorageError, errors(STORAGE, "errors of the storage modulus")),
@@ -79,13 +73,10 @@ const LOSS: Column = modulus(&[
     "손실탄성률",
 ], "loss moduli");
 #[rustfmt::skip]
-pub(super) const TEMPERATURE: Column = Column {
-    unit_decides: true,
-    ..Column::new(&[
-        "temperature", "temp", "t", "sample_temperature", "sample_temp", "temperature_sample", "temperatur", "probentemperatur",
-        "ts", "ϑ", "θ", "température", "temperatura", "温度", "溫度", "온도",
-    ], Dimension::Temperature, "temperatures")
-};
+pub(super) const TEMPERATURE: Column = Column::new(&[
+    "temperature", "temp", "t", "sample_temperature", "sample_temp", "temperature_sample", "temperatur", "probentemperatur",
+    "ts", "ϑ", "θ", "température", "temperatura", "温度", "溫度", "온도",
+], Dimension::Temperature, "temperatures").by_unit();
 
 const fn modulus(names: &'static [&'static str], what: &'static str) -> Column {
     Column {
@@ -95,10 +86,7 @@ const fn modulus(names: &'static [&'static str], what: &'static str) -> Column {
 }
 
 const fn errors(column: Column, what: &'static str) -> Column {
-    Column {
-        unit_decides: true,
-        ..column.of_errors(Holds::ErrorsOrShares, what)
-    }
+    column.of_errors(Holds::ErrorsOrShares, what).by_unit()
 }
 
 /// Words that say that a modulus is one of shear, and that it is one of tension.
