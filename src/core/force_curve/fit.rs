@@ -168,7 +168,8 @@ fn fit_above(
     let modulus_pa = touch.modulus_pa * (1.0 - nu * nu);
     let depth_m = DEEPER * deepest_m;
     let answer = match adhesion {
-        None => Springs::new(profile, layer, depth_m).map(Answer::Springs),
+        None => Springs::new(profile, layer, depth_m)
+            .map(|springs| Answer::Springs([springs.coarser(), springs])),
         Some(adhesion) => {
             let expected = (depth_m, SOFTER / touch.modulus_pa);
             Attracted::new(indenter, adhesion, expected, &contact).map(Answer::Attracted)

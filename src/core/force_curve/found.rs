@@ -9,7 +9,7 @@ use super::record::Points;
 use super::touch::Nuisance;
 use crate::identify::laws::{Drawn, Estimate, FittedLaw, Laws, Numbers, Tried, beyond};
 use crate::material::law::Form;
-use crate::numerics::levenberg_marquardt::{Solution, minimise};
+use crate::numerics::levenberg_marquardt::{Solution, minimise_along_valleys};
 use crate::numerics::random::Noise;
 
 /// What was found of a curve.
@@ -139,7 +139,7 @@ impl Fitted<'_> {
                 form: law.form,
                 is_near: true,
             };
-            let unknowns = minimise(&problem, &law.unknowns, EXACTLY)?.unknowns;
+            let unknowns = minimise_along_valleys(&problem, &law.unknowns, EXACTLY)?.unknowns;
             let (of_law, contact_part, _) = self.parts(&unknowns)?;
             let values = law.form.values(of_law);
             let drawn = Drawn {

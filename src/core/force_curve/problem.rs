@@ -13,10 +13,15 @@ use super::touch::{Nuisance, Touch, nuisances};
 use crate::identify::laws::clamped;
 use crate::material::law::{Form, Scale};
 use crate::numerics::levenberg_marquardt::{
-    Ending, Problem, Solution, central_difference, minimise,
+    Ending, Problem, Solution, central_difference, minimise_along_valleys,
 };
 use crate::quantity::Dimension;
 
+/// Of every start, of the best of them, and from near the solution on.
+const AT_FIRST: Ending = Ending {
+    iterations: 5,
+    enough: 1e-2,
+};
 const ON_THE_WAY: Ending = Ending {
     iterations: 20,
     enough: 1e-3,
@@ -36,7 +41,7 @@ const OFF: f64 = 5e-4;
 /// By how many times they are longer where edges that pass springs make the response less smooth.
 const LONGER: f64 = 2.0;
 
-/// The same on the way to the solution, to one side alone.
+/// The same for the way to a solution, to one side alone.
 const AHEAD: f64 = 1e-3;
 
 /// How far work and range may go from what is expected, as logarithms: a factor of a thousand.
@@ -45,10 +50,9 @@ const FARTHEST: f64 = 6.9;
 /// A law is not followed whose squares are beyond this factor of the least and so many more.
 const HOPELESS: (f64, f64) = (1.2, 10.0);
 
-/// How the contact answers an indentation.
+/// How the contact answers an indentation, on the way to a solution and at it.
 pub(super) enum Answer {
-    Springs(Springs),
-    /// On the way to a solution, and at it.
+    Springs([Springs; 2]),
     Attracted([Attracted; 2]),
 }
 
@@ -79,7 +83,7 @@ pub(super) struct Fitted<'a> {
 pub(super) struct OfForm<'a> {
     pub(super) fitted: &'a Fitted<'a>,
     pub(super) form: Form,
-    /// Whether derivatives are to be exact: on the way to a solution they are cheaper.
+    /// Whether forces are to be exact: on the way to a solution they are cheaper.
     pub(super) is_near: bool,
 }
 
@@ -169,7 +173,10 @@ impl<'a> Fitted<'a> {
         let depths: Vec<f64> = depths.map(|d| d - contact_point_m).collect();
         let path = (&self.points.path_s[..], &depths[..]);
         let force_n = match self.answer {
-            Answer::Springs(springs) => springs.response(&self.plan.relaxation(&series)?, path)?,
+            Answer::Springs(springs) => {
+                let springs = &springs[usize::from(is_near)];
+                springs.response(&self.plan.relaxation(&series)?, path)?
+            }
             Answer::Attracted(springs) => {
                 let springs = &springs[usize::from(is_near)];
                 let adhesion = self.plan.contact.adhesion?.with_logarithms(attraction);
@@ -232,8 +239,9 @@ impl<'a> Fitted<'a> {
         let nearly = NEARLY * starts.first()?.0;
         let all = starts.iter().take(FOLLOWED);
         let all = all.filter(|(left, _)| *left <= nearly);
-        let found = all.filter_map(|(_, start)| minimise(&problem, start, ON_THE_WAY));
-        found.min_by(|a, b| a.squares().total_cmp(&b.squares()))
+        let found = all.filter_map(|(_, start)| minimise_along_valleys(&problem, start, AT_FIRST));
+        let best = found.min_by(|a, b| a.squares().total_cmp(&b.squares()))?;
+        minimise_along_valleys(&problem, &best.unknowns, ON_THE_WAY)
     }
 
     /// The same from unknowns near it on.
@@ -243,7 +251,7 @@ impl<'a> Fitted<'a> {
             form,
             is_near: true,
         };
-        minimise(&problem, unknowns, EXACTLY)
+        minimise_along_valleys(&problem, unknowns, EXACTLY)
     }
 
     /// The least squares solutions of all laws that may be the right one: where a solution costs seconds, those are left out that are far
@@ -315,17 +323,6 @@ fn work_of(form: Form, unknowns: &mut [f64]) -> Option<&mut f64> {
 }
 
 impl OfForm<'_> {
-    /// Derivatives of the residuals by differences to one side.
-    fn columns_ahead(&self, unknowns: &[f64]) -> Option<Vec<DVector<f64>>> {
-        let here = self.fitted.off(self.form, unknowns, self.is_near)?;
-        let column = |k: usize| {
-            let mut moved = unknowns.to_vec();
-            moved[k] += AHEAD;
-            Some((self.fitted.off(self.form, &moved, self.is_near)? - &here) / AHEAD)
-        };
-        (0..unknowns.len()).map(column).collect()
-    }
-
     /// Derivatives of the residuals before anything is projected out.
     pub(super) fn columns(&self, unknowns: &[f64]) -> Option<Vec<DVector<f64>>> {
         let contact = self.fitted.parts(unknowns)?.0.len();
@@ -353,12 +350,23 @@ impl Problem for OfForm<'_> {
     }
 
     fn derivatives(&self, unknowns: &Vec<f64>) -> Option<DMatrix<f64>> {
-        let columns = match self.is_near || self.fitted.is_attracted() {
-            true => self.columns(unknowns)?,
-            false => self.columns_ahead(unknowns)?,
+        let columns = self.columns(unknowns)?.into_iter();
+        let columns: Vec<_> = columns.map(|c| self.fitted.projected(c)).collect();
+        Some(DMatrix::from_columns(&columns))
+    }
+
+    /// By differences to one side, but where edges pass springs of an attracted contact.
+    fn derivatives_at(&self, found: &Solution<Vec<f64>>) -> Option<DMatrix<f64>> {
+        if self.fitted.is_attracted() {
+            return self.derivatives(&found.unknowns);
+        }
+        let column = |k: usize| {
+            let mut moved = found.unknowns.clone();
+            moved[k] += AHEAD;
+            Some((self.residuals(&moved)? - &found.residuals) / AHEAD)
         };
-        let columns = columns.into_iter().map(|c| self.fitted.projected(c));
-        Some(DMatrix::from_columns(&columns.collect::<Vec<_>>()))
+        let columns: Option<Vec<_>> = (0..found.unknowns.len()).map(column).collect();
+        Some(DMatrix::from_columns(&columns?))
     }
 
     fn clamp(&self, place: usize, value: f64) -> f64 {

@@ -122,6 +122,17 @@ impl Springs {
         })
     }
 
+    /// The same contact on a third of the springs.
+    pub(super) fn coarser(&self) -> Self {
+        let middle = self.gaps_m.chunks_exact(3).map(|gaps_m| gaps_m[1]);
+        let sums = self.stiffness_m.chunks_exact(3).map(|own| own.iter().sum());
+        Self {
+            gaps_m: middle.collect(),
+            stiffness_m: sums.collect(),
+            ..*self
+        }
+    }
+
     /// F of an elastic body of contact modulus one: the force (N) over the modulus E/(1 - nu^2) (Pa).
     pub(super) fn elastic_m2(&self, indentation_m: f64) -> f64 {
         let springs = self.gaps_m.iter().zip(&self.stiffness_m);
@@ -149,19 +160,21 @@ impl Springs {
     }
 }
 
+/// Springs that are computed side by side.
+const LANES: usize = 8;
+
 /// What the springs remember while an indentation goes on.
 struct March<'a> {
     springs: &'a Springs,
     contact: &'a Relaxation,
     /// Of every spring.
-    displacements_m: Vec<f64>,
-    /// Of each branch its force in every spring.
-    memory: Vec<f64>,
+    displacements_m: Vec<[f64; LANES]>,
+    /// Of every group of springs the force of each branch, up to the last step and without what that added.
+    memory: Vec<[f64; LANES]>,
     /// Of every spring in a step: the force if it did not move, and by how much it moves.
-    held: Vec<f64>,
-    changes: Vec<f64>,
-    /// Of every branch in a step: what is left of its force, and what a change adds to it.
-    weights: Vec<(f64, f64)>,
+    held: Vec<[f64; LANES]>,
+    changes: Vec<[f64; LANES]>,
+    weights: Vec<Weight>,
     /// Springs that come into contact within a step: which, by how much each moves, and for how long (s) it is pressed.
     late: Vec<(usize, f64, f64)>,
     /// Time (s) and indentation (m).
@@ -171,17 +184,29 @@ struct March<'a> {
     touched: usize,
 }
 
+/// Of a branch in a step.
+#[derive(Debug, Clone, Copy, Default)]
+struct Weight {
+    /// What is left of its force.
+    left: f64,
+    /// What a change adds to it, and what one added in the step before.
+    gained: f64,
+    gained_before: f64,
+}
+
 impl<'a> March<'a> {
     fn new(springs: &'a Springs, contact: &'a Relaxation) -> Self {
         let (count, branches) = (springs.gaps_m.len(), contact.branches().len());
+        let groups = count.div_ceil(LANES);
+        let of_springs = vec![[0.0; LANES]; groups];
         Self {
             springs,
             contact,
-            displacements_m: vec![0.0; count],
-            memory: vec![0.0; count * branches],
-            held: vec![0.0; count],
-            changes: vec![0.0; count],
-            weights: vec![(0.0, 0.0); branches],
+            displacements_m: of_springs.clone(),
+            memory: vec![[0.0; LANES]; groups * branches],
+            held: of_springs.clone(),
+            changes: of_springs,
+            weights: vec![Weight::default(); branches],
             late: Vec::with_capacity(count),
             before: None,
             last_step_s: f64::NAN,
@@ -204,44 +229,53 @@ impl<'a> March<'a> {
     }
 
     fn weigh(&mut self, step_s: f64) {
-        if step_s == self.last_step_s {
-            return;
-        }
         for (weight, branch) in self.weights.iter_mut().zip(self.contact.branches()) {
-            let ratio = step_s / branch.time_s;
-            *weight = ((-ratio).exp(), branch.modulus_pa * mean_of_decay(ratio));
+            weight.gained_before = weight.gained;
+            if step_s != self.last_step_s {
+                let ratio = step_s / branch.time_s;
+                let (left, mean) = decay(ratio);
+                weight.left = left;
+                weight.gained = branch.modulus_pa * mean;
+            }
         }
         self.last_step_s = step_s;
     }
 
     /// What is left of all forces where nothing moves.
     fn hold(&mut self) {
-        let (touched, count) = (self.touched, self.held.len());
+        let (branches, groups) = (self.weights.len(), self.touched.div_ceil(LANES));
         let equilibrium = self.contact.equilibrium_modulus();
-        for (held, u) in self.held[..touched].iter_mut().zip(&self.displacements_m) {
-            *held = equilibrium * u;
-        }
-        for (own, (left, _)) in self.memory.chunks_exact_mut(count).zip(&self.weights) {
-            for (h, held) in own[..touched].iter_mut().zip(&mut self.held) {
-                *h *= left;
-                *held += *h;
+        for group in 0..groups {
+            let mut sum = self.displacements_m[group].map(|u| equilibrium * u);
+            let change = self.changes[group];
+            let memory = &mut self.memory[group * branches..][..branches];
+            for (force, weight) in memory.iter_mut().zip(&self.weights) {
+                let (mut own, weight) = (*force, *weight);
+                for lane in 0..LANES {
+                    own[lane] = weight.left * (own[lane] + weight.gained_before * change[lane]);
+                    sum[lane] += own[lane];
+                }
+                *force = own;
             }
+            self.held[group] = sum;
         }
     }
 
     /// Moves every spring with the indenter, or as it does without force; those that come into contact within the step are left for later.
     fn press(&mut self, depth_m: f64, step_s: f64) -> f64 {
-        let (touched, count) = (self.touched, self.held.len());
-        let gained = self.weights.iter().map(|(_, gained)| gained);
+        let gained = self.weights.iter().map(|weight| weight.gained);
         let at_once = self.contact.equilibrium_modulus() + gained.sum::<f64>();
         self.late.clear();
         let mut sum = 0.0;
-        for j in 0..touched {
-            let (gap_m, u) = (self.springs.gaps_m[j], self.displacements_m[j]);
+        let held = self.held.as_flattened();
+        let displacements_m = self.displacements_m.as_flattened_mut();
+        let changes = self.changes.as_flattened_mut();
+        for j in 0..self.touched {
+            let (gap_m, u) = (self.springs.gaps_m[j], displacements_m[j]);
             let change = depth_m - gap_m - u;
-            let force = self.held[j] + at_once * change;
+            let force = held[j] + at_once * change;
             if force <= 0.0 {
-                self.changes[j] = -self.held[j] / at_once;
+                changes[j] = -held[j] / at_once;
                 continue;
             }
             let open_m = self
@@ -250,36 +284,29 @@ impl<'a> March<'a> {
             if change > 0.0 && open_m > 1e-12 * self.springs.deepest_m {
                 let pressed_s = step_s * change / (change + open_m);
                 self.late.push((j, change, pressed_s));
-                self.changes[j] = 0.0;
+                changes[j] = 0.0;
             } else {
-                self.changes[j] = change;
+                changes[j] = change;
                 sum += self.springs.stiffness_m[j] * force;
             }
         }
-        for (own, (_, gained)) in self.memory.chunks_exact_mut(count).zip(&self.weights) {
-            for (h, change) in own[..touched].iter_mut().zip(&self.changes) {
-                *h += gained * change;
-            }
-        }
-        for (u, change) in self.displacements_m[..touched]
-            .iter_mut()
-            .zip(&self.changes)
-        {
-            *u += change;
+        for (u, change) in displacements_m.iter_mut().zip(changes) {
+            *u += *change;
         }
         sum
     }
 
     fn press_late(&mut self) -> f64 {
-        let count = self.held.len();
+        let branches = self.contact.branches();
         let mut sum = 0.0;
         for &(j, change, pressed_s) in &self.late {
-            self.displacements_m[j] += change;
-            let mut force = self.held[j] + self.contact.equilibrium_modulus() * change;
-            let branches = self.contact.branches();
-            for (own, branch) in self.memory.chunks_exact_mut(count).zip(branches) {
-                let more = branch.modulus_pa * mean_of_decay(pressed_s / branch.time_s) * change;
-                own[j] += more;
+            self.displacements_m[j / LANES][j % LANES] += change;
+            let mut force =
+                self.held[j / LANES][j % LANES] + self.contact.equilibrium_modulus() * change;
+            let memory = &mut self.memory[j / LANES * branches.len()..];
+            for (own, branch) in memory.iter_mut().zip(branches) {
+                let more = branch.modulus_pa * decay(pressed_s / branch.time_s).1 * change;
+                own[j % LANES] += more;
                 force += more;
             }
             sum += self.springs.stiffness_m[j] * force;
@@ -288,12 +315,17 @@ impl<'a> March<'a> {
     }
 }
 
-/// (1 - exp(-r))/r, which is 1 for a jump.
-fn mean_of_decay(ratio: f64) -> f64 {
-    match ratio > 0.0 {
-        true => -(-ratio).exp_m1() / ratio,
-        false => 1.0,
+/// Below it a decay is linear to twelve digits.
+const SHORT: f64 = 1e-4;
+
+/// exp(-r) and its mean up to there, (1 - exp(-r))/r.
+fn decay(ratio: f64) -> (f64, f64) {
+    if ratio < SHORT {
+        let mean = 1.0 - ratio * (1.0 / 2.0 - ratio / 6.0);
+        return (1.0 - ratio * mean, mean);
     }
+    let left = (-ratio).exp();
+    (left, (1.0 - left) / ratio)
 }
 
 /// The radius (m) at which a half-space is touched at a depth, or that at which the indenter ends.
