@@ -290,7 +290,7 @@ impl Form {
 }
 
 /// The gradient of the squares of the misfit at which no more branches are taken in: from 1e-10 on down the moduli are those of a QR
-/// factorisation to six digits in a tenth of its time, at 1e-9 some differ by a percent.
+/// factorisation to six digits in a third of its time, at 1e-9 some differ by a percent.
 const NEGLIGIBLE: f64 = 1e-11;
 
 /// Branches with a stretched exponential from a decade before the shortest to a decade after the longest time: a non-negative least squares
