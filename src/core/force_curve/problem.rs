@@ -41,7 +41,7 @@ const OFF: f64 = 5e-4;
 /// By how many times they are longer where edges that pass springs make the response less smooth.
 const LONGER: f64 = 2.0;
 
-/// The same for the way to a solution, to one side alone.
+/// The same for a search, to one side alone.
 const AHEAD: f64 = 1e-3;
 
 /// How far work and range may go from what is expected, as logarithms: a factor of a thousand.
