@@ -246,15 +246,15 @@ fn inside(found: &CurveFit, truth: &Truth, contact_point_m: f64) -> (usize, usiz
     )
 }
 
+/// How many curves are tried, and the seed they are drawn from.
+fn tried(curves: u64) -> (u64, u64) {
+    let of = |name| std::env::var(name).ok().and_then(|text| text.parse().ok());
+    (of("CURVES").unwrap_or(curves), of("SEED").unwrap_or(9))
+}
+
 /// Curves of a kind: no refusal, moduli and contact points in their bands; the fits.
 fn judge(kind: &str, body: fn(&mut Random, &Motion) -> (Truth, Material)) -> Vec<CurveFit> {
-    let of = |name: &str, default: u64| {
-        std::env::var(name)
-            .ok()
-            .and_then(|text| text.parse().ok())
-            .unwrap_or(default)
-    };
-    let (curves, seed) = (of("CURVES", 12), of("SEED", 9));
+    let (curves, seed) = tried(12);
     let found = (0..curves).into_par_iter().map(|number| {
         let mut random = Random(seed.wrapping_mul(1_000_003) + number);
         let motion = Motion::random(&mut random);
@@ -401,8 +401,7 @@ fn pulled(number: u64, seed: u64, forms: &[Form]) -> Pulled {
 
 #[test]
 fn the_work_of_adhesion_and_the_moduli_of_attracted_curves_lie_in_their_bands() {
-    let of = |name| std::env::var(name).ok().and_then(|text| text.parse().ok());
-    let (curves, seed) = (of("CURVES").unwrap_or(8_u64), of("SEED").unwrap_or(9));
+    let (curves, seed) = tried(8);
     let standard_solid = [Form {
         law: Law::StandardSolid,
         branches: 1,
@@ -426,6 +425,68 @@ fn the_work_of_adhesion_and_the_moduli_of_attracted_curves_lie_in_their_bands() 
     let least = 0.95 * curves as f64 - chance;
     assert!(contacts as f64 >= least && works as f64 >= least);
     assert!(misfit < 1.5);
+}
+
+/// What a channel of first order, slow by a time constant, makes of a motion at a time after first touch.
+fn slow(motion: &Motion, time_constant_s: f64, t: f64) -> f64 {
+    let of_ramp = |t: f64| t.max(0.0) + time_constant_s * (-t.max(0.0) / time_constant_s).exp_m1();
+    let hold_ends_s = motion.ramp_s + motion.hold_s;
+    motion.speed() * (t - time_constant_s - of_ramp(t - motion.ramp_s) - of_ramp(t - hold_ends_s))
+}
+
+#[test]
+fn gain_and_phase_of_a_slow_channel_are_taken_out_of_a_curve() {
+    let (curves, seed) = tried(20);
+    let of_curve = |number: u64| {
+        let mut random = Random(seed.wrapping_mul(1_000_003) + number);
+        let motion = Motion::random(&mut random);
+        let (truth, material) = gel(&mut random, &motion);
+        let indenter = indenter(&mut random);
+        let rows = motion.loads(material, Arc::clone(&indenter));
+        let mut made = made(&mut random, &motion, &rows);
+        let time_constant_s = motion.ramp_s * random.between(0.05, 0.15);
+        let before_s = motion.before_m / motion.speed();
+        let curve = &mut made.curve;
+        for (t, depth_m) in curve.time_s.iter().zip(&mut curve.indentation_m) {
+            let noise_m = 2e-4 * motion.depth_m * random.gauss();
+            let moved_m = slow(&motion, time_constant_s, t - before_s);
+            *depth_m = made.contact_point_m + moved_m + noise_m;
+        }
+        // Calibrated until a twentieth of the motion is left.
+        let hz: Vec<f64> = (0..40)
+            .map(|n| 20.0 / (TAU * time_constant_s) * 0.8_f64.powi(39 - n))
+            .collect();
+        let over = |hz: &f64| TAU * hz * time_constant_s;
+        let probe = Probe {
+            response_gain: hz.iter().map(|hz| over(hz).hypot(1.0).recip()).collect(),
+            response_phase_rad: hz.iter().map(|hz| over(hz).atan()).collect(),
+            response_frequency_hz: hz,
+            ..Probe::default()
+        };
+        let plan = CurvePlan {
+            forms: vec![Form {
+                law: Law::PowerLaw,
+                branches: 1,
+            }],
+            ..plan(indenter)
+        };
+        let as_read = made.curve.clone();
+        made.curve.take_response_back(&probe);
+        [as_read, made.curve].map(|curve| {
+            let found = fit(&plan, &curve, &AtomicBool::new(false)).unwrap();
+            let (moduli, of, _) = inside(&found, &truth, made.contact_point_m);
+            [moduli, of]
+        })
+    };
+    let all = (0..curves).into_par_iter().map(of_curve);
+    let none = || [[0; 2]; 2];
+    let sum = |a: [[usize; 2]; 2], b: [[usize; 2]; 2]| {
+        [0, 1].map(|which| [0, 1].map(|place| a[which][place] + b[which][place]))
+    };
+    let [[as_read, of], [taken_back, _]] = all.reduce(none, sum);
+    println!("slow channel: {taken_back} of {of} moduli, {as_read} as it was read");
+    assert!(taken_back as f64 >= 0.9 * of as f64);
+    assert!(2 * as_read < of);
 }
 
 #[test]

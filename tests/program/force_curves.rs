@@ -198,6 +198,44 @@ fn a_law_is_found_from_a_history_and_from_a_piezo_and_a_cantilever() {
 }
 
 #[test]
+fn a_piezo_that_is_late_and_reads_too_far_is_mended_by_its_calibration() {
+    let place = Place::new();
+    place.put("gel.toml", GEL);
+    place.done("simulate gel.toml --quiet --out gel");
+    let rows = measured(&place, "gel");
+    let late = 16;
+    let late_s = rows[late][0] - rows[0][0];
+    let piezo_m = |row: &[f64; 3]| row[2] + row[1] / 0.1;
+    let moved = rows.windows(late + 1).map(|rows| {
+        let (now, then) = (rows[late], rows[0]);
+        [now[0], 1.02 * piezo_m(&then), now[1] / 0.1]
+    });
+    let moved: Vec<[f64; 3]> = moved.collect();
+    let header = "time_s,piezo_m,deflection_m";
+    place.put("moved.csv", table(header, &moved, |row| *row));
+    let text = IDENTIFY.replace("CURVE", "moved.csv");
+    let spring = "[instrument]\nspring_constant = \"0.1 N/m\"\n";
+    let calibration = format!(
+        "time_lag = \"{late_s} s\"\nresponse_frequency = [\"10 Hz\"]\nresponse_gain = [1.02]\n"
+    );
+    place.put("moved.toml", format!("{text}{spring}{calibration}"));
+    found_is_the_gel(&place, "moved");
+    // It is in what was written of it, and without it the gel is another.
+    let again = place.text("moved/resolved.toml");
+    says(&again, &["response_gain = [1.02]", "time_lag = "]);
+    place.put("again.toml", again);
+    place.done("identify again.toml --quiet --out again");
+    let [found, again] = ["moved", "again"].map(|of| place.bytes(&format!("{of}/summary.json")));
+    assert_eq!(found, again);
+    let law = "law = \"power-law\"\n[material]";
+    let as_read = text.replace("[material]", law);
+    place.put("as-read.toml", format!("{as_read}{spring}"));
+    place.done("identify as-read.toml --quiet --out as-read");
+    let found = place.json("as-read/summary.json");
+    assert!((found["parameters"]["exponent"]["value"].as_f64().unwrap() - 0.2).abs() > 0.02);
+}
+
+#[test]
 fn a_deflection_in_volts_wants_the_sensitivity() {
     let place = Place::new();
     place.put("c.csv", "time_s,piezo_um,deflection_v\n0,0,0\n");

@@ -151,7 +151,7 @@ fn fit_above(
         touch.contact_point_m = points.indentation_m[middle];
         touch.before = about.start;
     }
-    points.drag_falls(plan.probe, surface_m.unwrap_or(touch.contact_point_m));
+    points.drag_falls(&plan.probe, surface_m.unwrap_or(touch.contact_point_m));
     let pulled = match adhesion {
         None => pulled(&points, &touch),
         Some(_) => torn(&points, &touch),

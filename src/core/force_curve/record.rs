@@ -94,7 +94,7 @@ impl Points {
     }
 
     /// Lets a drag that was taken off fall with the height above the contact point (m), and the speeds that one is proportional to.
-    pub(super) fn drag_falls(&mut self, probe: Probe, contact_point_m: f64) {
+    pub(super) fn drag_falls(&mut self, probe: &Probe, contact_point_m: f64) {
         let part = |depth_m: f64| probe.drag_at(contact_point_m - depth_m);
         let drag_n_s_per_m = probe.drag_n_s_per_m.unwrap_or(0.0);
         self.less_drag(-drag_n_s_per_m, |depth_m| 1.0 - part(depth_m));
@@ -124,6 +124,26 @@ impl Points {
 }
 
 impl ForceCurve {
+    /// Takes back what the channel of its motion does beside that of the force: of the piezo, where there is one.
+    pub fn take_response_back(&mut self, probe: &Probe) {
+        let gives_m = probe.frame_compliance_m_per_n;
+        let moved_m: Vec<f64> = match &self.travel_m {
+            Some(travel_m) => travel_m.clone(),
+            None => (self.indentation_m.iter().zip(&self.force_n))
+                .map(|(depth_m, force_n)| depth_m + gives_m * force_n)
+                .collect(),
+        };
+        let truly_m = probe.response().take_back(&self.time_s, &moved_m);
+        for (depth_m, (truly, moved)) in
+            (self.indentation_m.iter_mut()).zip(truly_m.iter().zip(&moved_m))
+        {
+            *depth_m += truly - moved;
+        }
+        if self.travel_m.is_some() {
+            self.travel_m = Some(truly_m);
+        }
+    }
+
     /// The points of a fit.
     pub fn points(&self) -> Points {
         let count = self.time_s.len();

@@ -7,8 +7,9 @@ use super::record::ForceCurve;
 use crate::identify::SoughtAttraction;
 use crate::identify::resolved::{ATTRACTION, IDENTIFY_BRANCHES, LAW, SAMPLES, branches_setting};
 use crate::indenter::Indenter;
+use crate::measured::response::ChannelResponse;
 use crate::quantity::Dimension;
-use crate::quantity::block::Block as _;
+use crate::quantity::block::{Block as _, Conflict};
 use crate::quantity::key::{Entries, Kind, Limits, number, quantity};
 use crate::quantity::setting::{Table, document};
 use crate::sweep::plan::resolved::{compressibility, indenter_material_text};
@@ -28,6 +29,20 @@ keys! {
 const UNCERTAINTY: Limits = Limits::new(Bound::Included(0.0), Bound::Included(0.5));
 
 impl Probe {
+    fn in_conflict(&self) -> Option<Conflict> {
+        self.response().in_conflict()
+    }
+
+    /// What the channel of the motion does beside that of the force.
+    pub(super) fn response(&self) -> ChannelResponse<'_> {
+        ChannelResponse {
+            time_lag_s: self.time_lag_s,
+            frequency_hz: &self.response_frequency_hz,
+            gain: &self.response_gain,
+            phase_rad: &self.response_phase_rad,
+        }
+    }
+
     /// The drag at this height (m) above the surface, as a part of that at the surface.
     pub(super) fn drag_at(&self, height_m: f64) -> f64 {
         self.drag_height_m
@@ -49,8 +64,7 @@ impl Probe {
 
 block_with_defaults! {
     /// What is known of the instrument of force curves.
-    #[derive(Copy)]
-    pub struct Probe in "instrument" {
+    pub struct Probe in "instrument" unless in_conflict {
         /// Spring constant of a cantilever: the force over its deflection.
         spring_constant_n_per_m: Option<f64> = None => "spring_constant", Kind::Number(quantity(Dimension::Stiffness).above_zero());
         /// Deflection of a cantilever over the signal of its detector, of curves whose deflection is in volts.
@@ -62,6 +76,16 @@ block_with_defaults! {
         /// Height above the surface over which the drag falls to a half, as `drag / (1 + height / drag_height)` (J. Alcaraz et al., Langmuir
         /// 18 (2002) 716); left out: it does not change.
         drag_height_m: Option<f64> = None => "drag_height", Kind::Number(quantity(Dimension::Length).above_zero());
+        /// Delay of the channel of the piezo, or of an indentation without one, relative to that of the force; negative if it is earlier.
+        time_lag_s: f64 = 0.0 => "time_lag", Kind::Number(quantity(Dimension::Time));
+        /// Frequencies at which gain and phase of that channel were measured against a stiff specimen or another sensor, ascending. Between them both
+        /// are linear in the logarithm of the frequency, outside they are those at the ends; but the phase of slower motion is that of a delay,
+        /// proportional to the frequency.
+        response_frequency_hz: Vec<f64> = Vec::new() => "response_frequency", Kind::Numbers(quantity(Dimension::Frequency).above_zero(), Entries::ANY);
+        /// Gain of that channel over that of the force at these frequencies.
+        response_gain: Vec<f64> = Vec::new() => "response_gain", Kind::Numbers(number("1.02").above_zero(), Entries::ANY);
+        /// Phase by which that channel is behind the channel of the force at these frequencies.
+        response_phase_rad: Vec<f64> = Vec::new() => "response_phase", Kind::Numbers(quantity(Dimension::Angle), Entries::ANY);
         /// Relative standard uncertainty of the spring constant, which all curves have in common: 0.05 for 5 %.
         spring_constant_uncertainty: f64 = 0.0 => "spring_constant_uncertainty", Kind::Number(number("0.05").within(UNCERTAINTY));
         /// Relative standard uncertainty of the radius of a sphere or a flat punch.

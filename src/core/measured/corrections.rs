@@ -14,6 +14,7 @@ use num_complex::Complex;
 use serde::{Deserialize, Serialize};
 
 use super::Signal;
+use super::response::ChannelResponse;
 use crate::block_with_defaults;
 use crate::cycle::Harmonics;
 use crate::quantity::Dimension;
@@ -34,8 +35,9 @@ block_with_defaults! {
         stiffness_n_per_m: f64 = 0.0 => "stiffness", Kind::Number(quantity(Dimension::Stiffness).not_negative());
         /// Delay of the approach channel relative to the load channel; negative if it is earlier.
         time_lag_s: f64 = 0.0 => "time_lag", Kind::Number(quantity(Dimension::Time));
-        /// Frequencies at which gain and phase of the approach channel were measured against a stiff specimen or another sensor, ascending; between
-        /// them both are linear in the logarithm of the frequency, outside they are those at the ends.
+        /// Frequencies at which gain and phase of the approach channel were measured against a stiff specimen or another sensor, ascending. Between
+        /// them both are linear in the logarithm of the frequency, outside they are those at the ends; but the phase of slower motion is that of a
+        /// delay, proportional to the frequency.
         response_frequency_hz: Vec<f64> = Vec::new() => "response_frequency", Kind::Numbers(quantity(Dimension::Frequency).above_zero(), Entries::ANY);
         /// Gain of the approach channel over that of the load channel at these frequencies.
         response_gain: Vec<f64> = Vec::new() => "response_gain", Kind::Numbers(number("1.02").above_zero(), Entries::ANY);
@@ -50,59 +52,16 @@ block_with_defaults! {
 
 impl Corrections {
     fn in_conflict(&self) -> Option<Conflict> {
-        let frequencies = &self.response_frequency_hz;
-        let conflict = |key, what: &str, help| {
-            Some(Conflict {
-                key,
-                what: what.to_owned(),
-                because: None,
-                help,
-            })
-        };
-        let is_other = |list: &[f64]| !list.is_empty() && list.len() != frequencies.len();
-        if !frequencies.is_sorted_by(|a, b| a < b) {
-            return conflict(
-                "response_frequency",
-                "frequencies that do not ascend",
-                "sort them, with their gains and phases",
-            );
-        }
-        let each = "give one for each of `response_frequency`, or none";
-        match (
-            is_other(&self.response_gain),
-            is_other(&self.response_phase_rad),
-        ) {
-            (true, _) => conflict(
-                "response_gain",
-                "other than as many gains as frequencies",
-                each,
-            ),
-            (_, true) => conflict(
-                "response_phase",
-                "other than as many phases as frequencies",
-                each,
-            ),
-            _ => None,
-        }
+        self.response().in_conflict()
     }
 
-    /// By what the channel of the approach multiplies a displacement at an angular frequency (rad/s).
-    fn response(&self, angular: f64) -> Complex<f64> {
-        let hz = angular / std::f64::consts::TAU;
-        let frequencies = &self.response_frequency_hz;
-        let after = frequencies.partition_point(|own| *own < hz);
-        let at = |list: &[f64], otherwise: f64| match (after.checked_sub(1), list.get(after)) {
-            _ if list.is_empty() => otherwise,
-            (Some(before), Some(above)) => {
-                let [low, high] = [before, after].map(|place| frequencies[place].ln());
-                let part = (hz.ln() - low) / (high - low);
-                list[before] + part * (above - list[before])
-            }
-            (Some(last), None) => list[last],
-            (None, _) => list[0],
-        };
-        let phase = at(&self.response_phase_rad, 0.0);
-        Complex::from_polar(at(&self.response_gain, 1.0), -phase)
+    fn response(&self) -> ChannelResponse<'_> {
+        ChannelResponse {
+            time_lag_s: self.time_lag_s,
+            frequency_hz: &self.response_frequency_hz,
+            gain: &self.response_gain,
+            phase_rad: &self.response_phase_rad,
+        }
     }
 
     /// Takes off the drift that is known.
@@ -129,8 +88,7 @@ impl Corrections {
         };
         for (n, (force, displacement)) in raw.load_n.iter().zip(&raw.approach_m).enumerate() {
             let angular = (n + 1) as f64 * angular_rad_per_s;
-            let displacement =
-                displacement * Complex::cis(angular * self.time_lag_s) / self.response(angular);
+            let displacement = displacement / self.response().at(angular);
             let load = force - self.dynamic_stiffness(angular) * displacement;
             corrected.load_n.push(load);
             corrected
@@ -202,9 +160,11 @@ mod tests {
                 let i = Complex::i();
                 let inertia = 2e-4 * (i * omega) * (i * omega) * x;
                 raw.load_n[n] = contact.load_n[n] + inertia + 0.02 * i * omega * x + 150.0 * x;
-                // The channel at this frequency: at the ends as it was measured there.
-                let part = ((omega / std::f64::consts::TAU).log10() - 1.0).clamp(0.0, 1.0);
-                let channel = Complex::from_polar(1.0 + 0.2 * part, -0.02 - 0.08 * part);
+                // The channel at this frequency: at the ends as it was measured there, and of slower motion as late as at the lower one.
+                let own_hz = omega / std::f64::consts::TAU;
+                let part = (own_hz.log10() - 1.0).clamp(0.0, 1.0);
+                let behind = (0.02 + 0.08 * part) * (own_hz / 10.0).min(1.0);
+                let channel = Complex::from_polar(1.0 + 0.2 * part, -behind);
                 raw.approach_m[n] = x * Complex::cis(-omega * 2e-5) * channel;
             }
             let found = corrections.applied(angular, &raw);

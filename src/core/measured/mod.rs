@@ -38,6 +38,7 @@ mod noise;
 pub mod quality;
 pub mod quantities;
 mod record;
+pub mod response;
 pub mod signal;
 pub mod stabilisation;
 pub mod statistics;

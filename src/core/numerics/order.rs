@@ -46,3 +46,17 @@ pub fn isotonic(
         .flat_map(|&(mean, _, count)| std::iter::repeat_n(mean, count));
     values.collect()
 }
+
+/// The neighbours of a place among ascending ones, and the share of the way from the first to the second; the end twice where it lies
+/// outside. There is one at least.
+pub(crate) fn bracket(places: &[f64], x: f64) -> (usize, usize, f64) {
+    let last = places.len().saturating_sub(1);
+    match places.partition_point(|&place| place < x) {
+        0 => (0, 0, 0.0),
+        next if next > last => (last, last, 0.0),
+        next => {
+            let (left, right) = (places[next - 1], places[next]);
+            (next - 1, next, (x - left) / (right - left))
+        }
+    }
+}

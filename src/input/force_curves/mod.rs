@@ -19,6 +19,15 @@ pub(super) fn parse(
     bytes: &[u8],
     probe: &Probe,
 ) -> Result<Vec<ForceCurve>, Diagnostics> {
+    let mut curves = recorded(name, bytes, probe)?;
+    for curve in &mut curves {
+        curve.take_response_back(probe);
+    }
+    Ok(curves)
+}
+
+/// The same as the channels have it.
+fn recorded(name: &str, bytes: &[u8], probe: &Probe) -> Result<Vec<ForceCurve>, Diagnostics> {
     if let Some(archive) = jpk::archive(bytes) {
         return Ok(jpk::parse(name, archive, probe)?);
     }

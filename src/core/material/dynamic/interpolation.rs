@@ -1,5 +1,7 @@
 //! Shift factors between isotherms: monotone cubics, in a coordinate in which the law of the factors is a straight line.
 
+use crate::numerics::order::bracket;
+
 /// Pairs ascending in the first, joined by cubics that are monotone wherever the pairs are (F. N. Fritsch and J. Butland, SIAM
 /// J. Sci. Stat. Comput. 5 (1984) 300). `None` outside, and where there is none.
 pub(super) fn monotone(pairs: &[(f64, f64)], x: f64) -> Option<f64> {
@@ -34,20 +36,6 @@ fn slope(pairs: &[(f64, f64)], at: usize) -> Option<f64> {
         }
         (Some(one), None) | (None, Some(one)) => Some(one.1),
         (None, None) => None,
-    }
-}
-
-/// The neighbours of a place among ascending ones, and the share of the way from the first to the second; the end twice where it lies
-/// outside. There is one at least.
-pub(super) fn bracket(places: &[f64], x: f64) -> (usize, usize, f64) {
-    let last = places.len().saturating_sub(1);
-    match places.partition_point(|&place| place < x) {
-        0 => (0, 0, 0.0),
-        next if next > last => (last, last, 0.0),
-        next => {
-            let (left, right) = (places[next - 1], places[next]);
-            (next - 1, next, (x - left) / (right - left))
-        }
     }
 }
 

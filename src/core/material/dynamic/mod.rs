@@ -19,6 +19,7 @@ mod synthetic;
 
 use super::{Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch};
 use crate::block_with_defaults;
+use crate::numerics::order::bracket;
 use crate::quantity::Dimension::Temperature;
 use crate::quantity::key::{Kind, quantity};
 use master_curve::{MasterCurve, MasterCurveError, ShiftChoice, ShiftFactor};
@@ -473,7 +474,7 @@ impl Characterisation {
 /// Vertical shift at a temperature: between isotherms its logarithm is interpolated, outside it stays what it was at the last.
 fn b_t(shifts: &[ShiftFactor], temperature_k: f64) -> f64 {
     let temperatures_k: Vec<f64> = shifts.iter().map(|shift| shift.temperature_k).collect();
-    let (below, above, share) = interpolation::bracket(&temperatures_k, temperature_k);
+    let (below, above, share) = bracket(&temperatures_k, temperature_k);
     let b_t = |place: usize| shifts.get(place).map_or(1.0, |shift| shift.b_t);
     b_t(below) * (b_t(above) / b_t(below)).powf(share)
 }
