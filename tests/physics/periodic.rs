@@ -4,6 +4,7 @@ use std::f64::consts::SQRT_2;
 
 use crate::prelude::*;
 use contact_dma::contact::half_space::periodic::{Periodic, PeriodicOperator};
+use contact_dma::indenter::Roughness;
 
 const WAVELENGTH_M: f64 = 1e-3;
 const AMPLITUDE_M: f64 = 1e-6;
@@ -146,6 +147,81 @@ fn it_does_not_matter_where_a_period_begins_nor_how_many_are_taken() {
         let ratio = double.contact_radius_m / solution.contact_radius_m;
         below!((ratio - SQRT_2).abs(), 1e-9, "{mean_pa}");
     }
+}
+
+/// An indenter of waves from a quarter of a side to four cells, and the root mean square of its slope.
+fn self_affine(cells: usize, hurst_exponent: f64, seed: u64) -> (Grid, Vec<f64>, f64) {
+    let spacing_m = 1e-6;
+    let roughness = Roughness {
+        cells,
+        spacing_m,
+        hurst_exponent,
+        rms_height_m: 1e-7,
+        cut_off_wavelength_m: 4.0 * spacing_m,
+        seed,
+        edge: MapEdge::Periodic,
+        roll_off_wavelength_m: Some(0.25 * cells as f64 * spacing_m),
+        sphere_radius_m: None,
+    };
+    let gaps = roughness.map().unwrap().gaps_m().to_vec();
+    let squares = (0..gaps.len()).map(|cell| {
+        let (x, y) = (cell % cells, cell / cells);
+        let right = gaps[y * cells + (x + 1) % cells] - gaps[cell];
+        let up = gaps[(y + 1) % cells * cells + x] - gaps[cell];
+        (right.powi(2) + up.powi(2)) / spacing_m.powi(2)
+    });
+    let slope = (squares.sum::<f64>() / gaps.len() as f64).sqrt();
+    (Grid::square(cells, spacing_m).unwrap(), gaps, slope)
+}
+
+#[test]
+fn from_a_hundredth_in_contact_to_all_but_a_thousandth_few_steps_find_what_the_safe_way_finds() {
+    let mut random = Random(41);
+    let (mut least, mut largest) = (1.0_f64, 0.0_f64);
+    for number in 0..24_usize {
+        // An odd number of cells has none coarser to begin from.
+        let cells = [64, 96, 128, 75][number % 4];
+        let hurst = random.between(0.2, 0.9);
+        let (grid, gaps, slope) = self_affine(cells, hurst, number as u64);
+        // About full under 1.6 of E* times the slope (B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840).
+        let share = 10_f64.powf(-2.6 + 2.85 * number as f64 / 23.0);
+        let mean_pa = share * slope / COMPLIANCE;
+        let load_n = mean_pa * grid.cells() as f64 * grid.cell_area_m2();
+        let operator = Arc::new(PeriodicOperator::new(grid));
+        let new = || Periodic::new(Arc::clone(&operator), gaps.clone(), to_tolerance(1e-10));
+        let under = |mut engine: Periodic| {
+            first_touch(&mut engine, COMPLIANCE, Prescribed::LoadN(load_n)).unwrap()
+        };
+        let ((fast, pressure), (safe, expected)) =
+            (under(new()), under(new().by_safeguard_alone()));
+        let what = format!("{cells} cells, H {hurst:.2}, {mean_pa:.2e} Pa");
+        let touching = pressure.iter().filter(|p| **p > 0.0).count() as f64;
+        let part = touching / grid.cells() as f64;
+        (least, largest) = (least.min(part), largest.max(part));
+        near!(fast.approach_m, safe.approach_m, 1e-8, "{what}");
+        let highest = expected.iter().copied().fold(0.0, f64::max);
+        for (own, expected) in pressure.iter().zip(&expected) {
+            below!((own - expected).abs(), 1e-6 * highest, "{what}");
+        }
+        assert!(fast.iterations <= 60, "{what}: {}", fast.iterations);
+        assert!(fast.convolutions < safe.convolutions, "{what}");
+    }
+    assert!(least < 0.02 && largest > 0.998, "{least} {largest}");
+}
+
+#[test]
+fn steps_grow_slowly_with_the_cells_of_a_rough_surface() {
+    let steps = |cells: usize| {
+        let (grid, gaps, slope) = self_affine(cells, 0.5, 7);
+        let load_n = 0.34 * slope / COMPLIANCE * grid.cells() as f64 * grid.cell_area_m2();
+        let operator = Arc::new(PeriodicOperator::new(grid));
+        let mut engine = Periodic::new(operator, gaps, to_tolerance(1e-8));
+        let (found, _) = first_touch(&mut engine, COMPLIANCE, Prescribed::LoadN(load_n)).unwrap();
+        found.iterations
+    };
+    // Half in contact, where most cells come and go; Polonsky and Keer's take twice as many for every doubling.
+    let (coarse, fine) = (steps(64), steps(512));
+    assert!(fine <= 4 * coarse && fine <= 60, "{coarse} {fine}");
 }
 
 fn under_map(steps: usize, method: Method) -> CaseResult {

@@ -3,6 +3,7 @@
 //!
 //! Conventions: displacement positive into the body, pressure positive in compression, cells row-major (x fastest).
 
+mod active_set;
 pub mod convolution;
 pub mod grid;
 pub mod influence;

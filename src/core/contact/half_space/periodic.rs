@@ -5,13 +5,21 @@
 //! which is left out: displacements are measured from the mean plane of the surface, and the approach is that of the indenter to that
 //! plane since first touch. It has a bound, the mean gap, at which contact is full.
 //!
-//! An instant is solved by the conjugate gradients of I. A. Polonsky and L. M. Keer (`PolonskyKeer`) under a prescribed mean pressure.
+//! Transforms of one period invert the operator as well, all but its mean, so that conjugate gradients on a contact are done in a few
+//! steps (`ActiveSet`). The first pressures are guessed on coarser cells. What is not solved like that, the slower conjugate
+//! gradients of I. A. Polonsky and L. M. Keer (`PolonskyKeer`) solve.
 
+use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use super::active_set::{
+    ActiveSet, Elastic, FRESH_STEPS, InstantOfCells, Scratches, StopReason, Work,
+};
+use super::convolution::ConvolutionError;
 pub use super::convolution::PeriodicOperator;
-use super::instant::{Imposed, SolverSettings};
+use super::grid::Grid;
+use super::instant::{Imposed, ROUNDING, SolverSettings, start};
 use super::polonsky_keer::{InstantProblem, PolonskyKeer, Residual};
 use crate::contact::surface::{PressureLine, Response, Surface};
 use crate::contact::{
@@ -23,20 +31,235 @@ pub struct Periodic {
     operator: Arc<PeriodicOperator>,
     settings: SolverSettings,
     gap_m: Vec<f64>,
-    solver: PolonskyKeer,
+    /// Gap under the history alone, before the approach is taken off: g + B H (m).
+    free_gap_m: Vec<f64>,
+    /// Steps of an instant after which the fast way is left for the safe one.
+    fast_steps: usize,
+    fields: ActiveSet,
+    scratches: Scratches,
+    safeguard: Option<Box<PolonskyKeer>>,
     interrupt: Option<Arc<AtomicBool>>,
 }
+
+/// Cells along a side from which on coarser ones guess the pressures, and how well they know them.
+const FEWEST_CELLS: usize = 32;
+const TOLERANCE_OF_A_GUESS: f64 = 1e-3;
 
 impl Periodic {
     /// An engine for this gap field (m, one value per cell of one period).
     pub fn new(operator: Arc<PeriodicOperator>, gap_m: Vec<f64>, settings: SolverSettings) -> Self {
         Self {
-            solver: PolonskyKeer::new(gap_m.len()),
+            free_gap_m: gap_m.clone(),
+            fast_steps: usize::MAX,
+            fields: ActiveSet::default(),
+            scratches: Scratches::default(),
+            safeguard: None,
             interrupt: None,
             settings,
             operator,
             gap_m,
         }
+    }
+
+    /// The same engine solving every instant by its slow, safe way alone: what the fast one is checked against.
+    pub fn by_safeguard_alone(mut self) -> Self {
+        self.fast_steps = 0;
+        self
+    }
+
+    /// Sets the gap under the history alone. Returns what rounding leaves in it (m).
+    fn lift_free_gap(&mut self, history: &[f64], work: &mut Work) -> Result<f64, ContactError> {
+        if history.iter().all(|h| *h == 0.0) {
+            self.free_gap_m.copy_from_slice(&self.gap_m);
+            return Ok(0.0);
+        }
+        let scratch = &mut self.scratches.convolution;
+        self.operator
+            .apply(history, &mut self.free_gap_m, scratch)?;
+        work.convolutions += 1;
+        let largest_m = -sums::least_of(&self.free_gap_m, |lift| -lift.abs());
+        for (free, gap) in self.free_gap_m.iter_mut().zip(&self.gap_m) {
+            *free += gap;
+        }
+        Ok(ROUNDING * largest_m)
+    }
+
+    /// A first guess: the pressures of the same surface in cells of twice the width, which guess theirs likewise.
+    fn guess_on_coarser_cells(
+        &self,
+        compliance_per_pa: f64,
+        load_n: f64,
+        pressure: &mut [f64],
+    ) -> Result<(), ContactError> {
+        let grid = self.operator.grid();
+        let (cells_x, cells_y) = (grid.cells_x(), grid.cells_y());
+        let is_halved = cells_x.is_multiple_of(2) && cells_y.is_multiple_of(2);
+        if !is_halved || cells_x.min(cells_y) < FEWEST_CELLS {
+            return Ok(());
+        }
+        let (half_x, half_y) = (cells_x / 2, cells_y / 2);
+        let spacing_m = [grid.spacing_x_m(), grid.spacing_y_m()].map(|spacing_m| 2.0 * spacing_m);
+        let Ok(coarser) = Grid::new(half_x, half_y, spacing_m[0], spacing_m[1]) else {
+            return Ok(());
+        };
+        let under = |cell: usize| cell / cells_x / 2 * half_x + cell % cells_x / 2;
+        let mut gap_m = vec![0.0; half_x * half_y];
+        for (cell, gap) in self.free_gap_m.iter().enumerate() {
+            gap_m[under(cell)] += 0.25 * gap;
+        }
+        let settings = SolverSettings {
+            tolerance: self.settings.tolerance.max(TOLERANCE_OF_A_GUESS),
+            ..self.settings
+        };
+        let mut engine = Self::new(Arc::new(PeriodicOperator::new(coarser)), gap_m, settings);
+        engine.interrupt.clone_from(&self.interrupt);
+        let none = vec![0.0; half_x * half_y];
+        let mut guess = none.clone();
+        let instant = Instant {
+            history: &none,
+            compliance_per_pa,
+            prescribed: Prescribed::LoadN(load_n),
+        };
+        match engine.solve(&instant, &mut guess) {
+            Err(ContactError::Interrupted) => return Err(ContactError::Interrupted),
+            // Without a guess the iteration begins at a uniform pressure.
+            Err(_) => return Ok(()),
+            Ok(_) => {}
+        }
+        for (cell, p) in pressure.iter_mut().enumerate() {
+            *p = guess[under(cell)];
+        }
+        Ok(())
+    }
+
+    /// The instant the fast way; `None` where that leads nowhere. The pressure is where it ended.
+    fn solve_fast(
+        &mut self,
+        compliance_per_pa: f64,
+        target_sum: f64,
+        noise_m: f64,
+        pressure: &mut [f64],
+        work: &mut Work,
+    ) -> Result<Option<f64>, ContactError> {
+        start(Some(target_sum), &self.gap_m, pressure);
+        self.fields.fit(pressure.len());
+        self.fields.pressure.copy_from_slice(pressure);
+        loop {
+            let fields = &mut self.fields;
+            let scratch = &mut self.scratches.convolution;
+            (self.operator).apply(&fields.pressure, &mut fields.image, scratch)?;
+            work.convolutions += 1;
+            work.carried = 0;
+            let lifted = fields.image.iter().zip(&self.free_gap_m);
+            for (gap, (image, free)) in fields.gap_m.iter_mut().zip(lifted) {
+                *gap = free + compliance_per_pa * image;
+            }
+            let level_m = -sums::least_of(&fields.gap_m, |gap| -gap.abs());
+            let period = Period {
+                operator: &self.operator,
+                free_gap_m: &self.free_gap_m,
+            };
+            let problem = InstantOfCells {
+                elastic: &period,
+                compliance_per_pa,
+                target_sum: Some(target_sum),
+                approach_m: None,
+                tolerance: self.settings.tolerance,
+                fast_steps: self.fast_steps,
+                noise_m: noise_m + ROUNDING * level_m,
+                waits: true,
+            };
+            let steps = self.settings.max_iterations;
+            let (state, ending) = fields.solve(&problem, steps, &mut self.scratches, work)?;
+            pressure.copy_from_slice(&fields.pressure);
+            match ending {
+                StopReason::Converged if work.carried <= FRESH_STEPS => {
+                    return Ok(Some(state.approach_m));
+                }
+                // Rounding has piled up in a gap carried along by recursion: judge a fresh one.
+                StopReason::Converged => {}
+                StopReason::Stalled => return Ok(None),
+                StopReason::OutOfSteps => {
+                    return Err(ContactError::NotConverged {
+                        iterations: work.steps,
+                        residual: state.residual,
+                        tolerance: self.settings.tolerance,
+                    });
+                }
+            }
+        }
+    }
+
+    /// The instant the slow, safe way, from the pressure given.
+    fn solve_safely(
+        &mut self,
+        instant: &Instant<'_>,
+        target_sum: f64,
+        pressure: &mut [f64],
+        work: &mut Work,
+    ) -> Result<f64, ContactError> {
+        let cells = self.gap_m.len();
+        let new = || Box::new(PolonskyKeer::new(cells));
+        let safeguard = self.safeguard.get_or_insert_with(new);
+        safeguard.convolutions = 0;
+        let given = InstantProblem {
+            operator: &|p, u, scratch| self.operator.apply(p, u, scratch),
+            reference_m: Residual::displacement_range_m,
+            settings: self.settings,
+            gap_m: &self.gap_m,
+            compliance: instant.compliance_per_pa,
+            imposed: Imposed::PressureSum(target_sum),
+            interrupt: self.interrupt.as_deref(),
+        };
+        let solved = safeguard.solve(&given, instant.history, pressure, work.steps);
+        work.convolutions += safeguard.convolutions;
+        let Some((residual, steps)) = solved? else {
+            return Ok(sums::least(&self.free_gap_m));
+        };
+        work.steps = steps;
+        Ok(residual.mean_approach_m())
+    }
+}
+
+/// A period under pressure, and the gap it would have without.
+struct Period<'a> {
+    operator: &'a PeriodicOperator,
+    free_gap_m: &'a [f64],
+}
+
+impl Elastic for Period<'_> {
+    fn cells_x(&self) -> usize {
+        self.operator.grid().cells_x()
+    }
+
+    fn displace(
+        &self,
+        pressure: &[f64],
+        displacement: &mut [f64],
+        scratch: &mut Scratches,
+    ) -> Result<(), ConvolutionError> {
+        (self.operator).apply(pressure, displacement, &mut scratch.convolution)
+    }
+
+    fn precondition(
+        &self,
+        gap: &[f64],
+        pressure: &mut [f64],
+        rows: Range<usize>,
+        scratch: &mut Scratches,
+    ) -> Result<(), ConvolutionError> {
+        // Of the same shape as the operator, in whose work space there is room for it.
+        (self.operator).apply_inverse(gap, pressure, rows, &mut scratch.convolution)
+    }
+
+    /// Without its mean, a displacement is as large as the distance between its extremes.
+    fn load(&self, pressure: &[f64], gap_m: &[f64], _compliance_per_pa: f64) -> (f64, f64) {
+        let (mut least_m, mut largest_m) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (gap, free) in gap_m.iter().zip(self.free_gap_m) {
+            let lift_m = gap - free;
+            (least_m, largest_m) = (least_m.min(lift_m), largest_m.max(lift_m));
+        }
+        (sums::sum(pressure), largest_m - least_m)
     }
 }
 
@@ -73,32 +296,31 @@ impl Engine for Periodic {
             }
         };
         let area_m2 = self.operator.grid().cell_area_m2();
-        let given = InstantProblem {
-            operator: &|p, u, scratch| self.operator.apply(p, u, scratch),
-            reference_m: Residual::displacement_range_m,
-            settings: self.settings,
-            gap_m: &self.gap_m,
-            compliance: instant.compliance_per_pa,
-            imposed: Imposed::PressureSum(load_n / area_m2),
-            interrupt: self.interrupt.as_deref(),
+        let mut work = Work {
+            interrupt: self.interrupt.clone(),
+            ..Work::default()
         };
-        let solver = &mut self.solver;
-        solver.convolutions = 0;
-        solver.prepare_free_gap(&given, instant.history)?;
-        let (approach_m, iterations) = if load_n == 0.0 {
+        let noise_m = self.lift_free_gap(instant.history, &mut work)?;
+        let approach_m = if load_n == 0.0 {
             pressure.fill(0.0);
-            (sums::least(&solver.free_gap_m), 0)
+            sums::least(&self.free_gap_m)
         } else {
-            let (residual, iterations) = solver.iterate(&given, pressure, 0)?;
-            (residual.mean_approach_m(), iterations)
+            let (target_sum, compliance) = (load_n / area_m2, instant.compliance_per_pa);
+            if self.fast_steps > 0 && pressure.iter().all(|p| *p <= 0.0) {
+                self.guess_on_coarser_cells(compliance, load_n, pressure)?;
+            }
+            match self.solve_fast(compliance, target_sum, noise_m, pressure, &mut work)? {
+                Some(approach_m) => approach_m,
+                None => self.solve_safely(instant, target_sum, pressure, &mut work)?,
+            }
         };
         let touching = pressure.iter().filter(|p| **p > 0.0).count() as f64;
         Ok(Solution {
             load_n,
             approach_m,
             contact_radius_m: (touching * area_m2 / std::f64::consts::PI).sqrt(),
-            iterations,
-            convolutions: solver.convolutions,
+            iterations: work.steps,
+            convolutions: work.convolutions,
         })
     }
 
@@ -128,7 +350,7 @@ impl Engine for Periodic {
         pressure: &[f64],
         displacement: &mut [f64],
     ) -> Result<usize, ContactError> {
-        (self.operator).apply(pressure, displacement, &mut self.solver.scratch)?;
+        (self.operator).apply(pressure, displacement, &mut self.scratches.convolution)?;
         Ok(1)
     }
 

@@ -1,28 +1,26 @@
 //! One instant on the half-space: minimise the complementary energy over p >= 0.
 //!
-//! An instant is solved in a window about the contact ([`active_set`]), to which the starting pressure and the history show the
+//! An instant is solved in a window about the contact ([`active_set`](super::active_set)), to which the starting pressure and the history show the
 //! way; that nothing touches the indenter beyond it is proved ([`outside`]) or, failing that, checked by a convolution on the
 //! whole grid, and the window grows until it holds the contact. Where the fast way makes too little progress, a slower one on
 //! the whole grid goes on from there ([`PolonskyKeer`]). The answer is a function of gap, instant and starting pressure alone:
 //! nothing is carried from one instant to the next but memory already allocated. Everything that decides when to stop is a
 //! ratio: the answer does not change with the user's units.
 
-mod active_set;
 mod area;
 mod frame;
 mod outside;
-mod spans;
 mod tangent;
 mod windows;
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use active_set::{ActiveSet, Scratches, Work};
 use frame::Frame;
 use outside::OutsideGapBound;
 use windows::Windows;
 
+use super::active_set::{ActiveSet, Scratches, Work};
 use super::convolution::{Convolution, ConvolutionError};
 use super::instant::{Imposed, SolverSettings};
 use super::polonsky_keer::{InstantProblem, PolonskyKeer, Residual};

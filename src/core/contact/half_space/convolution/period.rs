@@ -2,6 +2,7 @@
 
 use std::convert::Infallible;
 use std::f64::consts::TAU;
+use std::ops::Range;
 use std::sync::{Arc, Mutex, Weak};
 
 use super::even_column::EvenColumn;
@@ -14,6 +15,8 @@ use crate::contact::half_space::grid::Grid;
 pub struct PeriodicOperator {
     grid: Grid,
     product: SpectralProduct,
+    /// |q|/2, and for the mean as for the longest wave.
+    inverse: SpectralProduct,
 }
 
 /// Those in use.
@@ -30,23 +33,27 @@ impl PeriodicOperator {
     /// Of a grid that is one period.
     pub fn new(grid: Grid) -> Self {
         let (nx, ny) = (grid.cells_x(), grid.cells_y());
-        let wave_number =
+        let along =
             |k: usize, cells: usize, spacing_m: f64| TAU * k as f64 / (cells as f64 * spacing_m);
-        let mut spectrum = Vec::with_capacity((nx / 2 + 1) * (ny / 2 + 1));
-        for kx in 0..=nx / 2 {
-            for ky in 0..=ny / 2 {
-                let along_y = wave_number(ky, ny, grid.spacing_y_m());
-                let q = wave_number(kx, nx, grid.spacing_x_m()).hypot(along_y);
-                // Transforms there and back multiply by the number of cells; the mean is left out.
-                spectrum.push(match q > 0.0 {
-                    true => 2.0 / (q * grid.cells() as f64),
-                    false => 0.0,
-                });
-            }
+        let wave_number = |kx: usize, ky: usize| {
+            let along_y = along(ky, ny, grid.spacing_y_m());
+            along(kx, nx, grid.spacing_x_m()).hypot(along_y)
+        };
+        let longest_per_m = wave_number(1, 0).min(wave_number(0, 1));
+        // Transforms there and back multiply by the number of cells.
+        let cells = grid.cells() as f64;
+        let product = |at: &dyn Fn(f64) -> f64| {
+            let waves = (0..=nx / 2).flat_map(|kx| (0..=ny / 2).map(move |ky| (kx, ky)));
+            let spectrum = waves.map(|(kx, ky)| at(wave_number(kx, ky)) / cells);
+            let (row, column) = (PeriodicRow::of_period(nx), EvenColumn::new(ny));
+            SpectralProduct::new(&grid, row, column, spectrum.collect())
+        };
+        Self {
+            grid,
+            // The mean is left out.
+            product: product(&|q| if q > 0.0 { 2.0 / q } else { 0.0 }),
+            inverse: product(&|q| 0.5 * q.max(longest_per_m)),
         }
-        let (row, column) = (PeriodicRow::of_period(nx), EvenColumn::new(ny));
-        let product = SpectralProduct::new(&grid, row, column, spectrum);
-        Self { grid, product }
     }
 
     pub(in super::super) fn grid(&self) -> &Grid {
@@ -62,5 +69,17 @@ impl PeriodicOperator {
     ) -> Result<(), ConvolutionError> {
         let rows = 0..self.grid.cells_y();
         self.product.apply(pressure, displacement, rows, scratch)
+    }
+
+    /// The pressures (Pa) that lift the surface like this (m per 1/Pa) in these rows, if their mean counts for as much as the longest
+    /// wave.
+    pub(in super::super) fn apply_inverse(
+        &self,
+        displacement: &[f64],
+        pressure: &mut [f64],
+        rows: Range<usize>,
+        scratch: &mut Scratch,
+    ) -> Result<(), ConvolutionError> {
+        self.inverse.apply(displacement, pressure, rows, scratch)
     }
 }

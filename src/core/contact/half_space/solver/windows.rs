@@ -1,10 +1,14 @@
 //! An instant in windows of the grid: the contact's, which grows until it holds all of it, and that of what moves the surface.
 
+use std::ops::Range;
 use std::sync::Arc;
 
+use super::super::active_set::{
+    Elastic, FRESH_STEPS, InstantOfCells, IterateState, Scratches, StopReason, Work,
+};
+use super::super::convolution::{Convolution, ConvolutionError, WindowOperators};
 use super::super::influence::Influence;
 use super::super::instant::{Imposed, ROUNDING, hertz_guess, start};
-use super::active_set::{IterateState, StopReason, WindowProblem, Work};
 use super::frame::Frame;
 use super::outside::{Moments, OutsideGapBound, first_centre};
 use super::{HalfSpace, InstantResult, sums};
@@ -17,11 +21,68 @@ pub(super) struct Windows {
     pub(super) source: Frame,
 }
 
-/// Steps over which a gap may be carried along by recursion before rounding has piled up in it.
-const FRESH_STEPS: usize = 20;
-
 /// Windows whose surroundings are remembered.
 const REMEMBERED_BOUNDS: usize = 32;
+
+/// The half-space in a window of a grid.
+struct Window<'a> {
+    whole: &'a Convolution,
+    operators: WindowOperators,
+}
+
+impl Elastic for Window<'_> {
+    fn cells_x(&self) -> usize {
+        self.operators.convolution.grid().cells_x()
+    }
+
+    fn displace(
+        &self,
+        pressure: &[f64],
+        displacement: &mut [f64],
+        scratch: &mut Scratches,
+    ) -> Result<(), ConvolutionError> {
+        let scratch = &mut scratch.convolution;
+        (self.operators.convolution).apply(pressure, displacement, scratch)
+    }
+
+    fn precondition(
+        &self,
+        gap: &[f64],
+        pressure: &mut [f64],
+        rows: Range<usize>,
+        scratch: &mut Scratches,
+    ) -> Result<(), ConvolutionError> {
+        let scratch = &mut scratch.preconditioner;
+        (self.operators.preconditioner).apply(gap, pressure, rows, scratch)
+    }
+
+    /// The displacement that a disc of as widely spread pressures causes at least.
+    fn load(&self, pressure: &[f64], _gap_m: &[f64], compliance_per_pa: f64) -> (f64, f64) {
+        let grid = self.whole.grid();
+        let step_y = grid.spacing_y_m() / grid.spacing_x_m();
+        let (mut moments, first) = (Moments::default(), first_centre(grid));
+        let rows = pressure.chunks_exact(self.cells_x());
+        for (iy, pressure) in rows.enumerate() {
+            moments.add_row(pressure, first, (iy as f64 + first) * step_y);
+        }
+        let pressure_sum = moments.sum();
+        if pressure_sum <= 0.0 {
+            return (pressure_sum, 0.0);
+        }
+        let moments = moments.of_all_copies(grid);
+        let bound = moments.mean_displacement_lower_bound(step_y) * grid.spacing_y_m();
+        let own_m = match self.whole.layer() {
+            None => bound,
+            // Of a disc under uniform pressure the radius, in which waves of its own length are counted.
+            Some(layer) => {
+                let (_, spread) = moments.centre_and_spread(step_y);
+                let radius_m = (2.0 * spread).sqrt() * grid.spacing_x_m();
+                bound * layer.softening(layer.thickness_m / radius_m).min(1.0)
+            }
+        };
+        (pressure_sum, compliance_per_pa * own_m)
+    }
+}
 
 impl HalfSpace {
     /// Solves in windows about the contact. `None` where the fast way leads nowhere.
@@ -136,22 +197,24 @@ impl HalfSpace {
     ) -> Result<(IterateState, StopReason), ContactError> {
         let contact = windows.contact;
         let operator = Arc::clone(&self.operator);
-        let operators = operator.window(contact.cells_x, contact.cells_y)?;
+        let elastic = Window {
+            whole: &operator,
+            operators: operator.window(contact.cells_x, contact.cells_y)?,
+        };
         loop {
             let largest_m = self.lift_gap(windows, instant.compliance_per_pa)?;
             work.convolutions += 1;
             work.carried = 0;
             let level_m = imposed.approach_m().unwrap_or(largest_m).abs();
-            let problem = WindowProblem {
-                whole: &operator,
-                operators: &operators,
-                frame: contact,
+            let problem = InstantOfCells {
+                elastic: &elastic,
                 compliance_per_pa: instant.compliance_per_pa,
                 target_sum: imposed.target_sum(),
                 approach_m: imposed.approach_m(),
                 tolerance: self.settings.tolerance,
                 fast_steps: self.fast_steps,
                 noise_m: ROUNDING * (largest_m + level_m),
+                waits: false,
             };
             let steps = self.settings.max_iterations;
             let ended = self

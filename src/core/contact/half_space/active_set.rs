@@ -1,32 +1,59 @@
-//! The fast way to solve an instant in a window: preconditioned conjugate gradients on the contact, between changes of it, a
+//! The fast way to solve an instant on cells: preconditioned conjugate gradients on the contact, between changes of it, a
 //! primal-dual active set strategy (M. Hintermueller, K. Ito and K. Kunisch, SIAM J. Optim. 13 (2002) 865).
 //!
 //! Inside the contact the gap must vanish, which is a linear problem for its pressure; conjugate gradients solve it in a few
-//! steps when preconditioned with [`Preconditioner`](super::super::convolution::Preconditioner). Cells whose pressure turns
-//! negative leave the contact at once, at the price of a convolution. Cells that penetrate outside join it, without a
-//! convolution, once that is what matters more than the gaps inside. Under load control the pressures' sum stays what it is:
+//! steps when preconditioned with what nearly inverts the operator ([`Elastic`]). Cells whose pressure turns
+//! negative leave the contact at once, at the price of a convolution; or, where a contact has many patches, once the gaps inside have
+//! shrunk, as long as that leads down ([`Waiting`]). Cells that penetrate outside join it, without a convolution, once that is what
+//! matters more than the gaps inside. Under load control the pressures' sum stays what it is:
 //! directions are projected as the preconditioner's own metric asks for.
 //!
 //! Changes of the contact are not proved to end, so the number of steps without progress is bounded; what is then left to do
-//! is done by [`polonsky_keer`](super::super::polonsky_keer), which descends.
+//! is done by [`polonsky_keer`](super::polonsky_keer), which descends.
 
+mod spans;
+
+use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::super::convolution::{Convolution, Scratch, WindowOperators};
-use super::super::instant::STANDING_OFF;
-use super::frame::Frame;
-use super::outside::{Moments, first_centre};
-use super::spans::Spans;
-use super::sums::{dot, least, least_of, sum, sums};
+use super::convolution::{ConvolutionError, Scratch};
+use super::instant::STANDING_OFF;
+use crate::contact::sums::{dot, least, least_of, sum, sums};
 use crate::contact::{ContactError, go_on};
+use spans::Spans;
 
-/// What a window's problem is, apart from its fields.
+/// A surface in cells that yields in proportion to the pressure: of a window, or of a period.
+pub(super) trait Elastic {
+    /// Cells of a row.
+    fn cells_x(&self) -> usize;
+
+    /// The displacement (m per 1/Pa) of every cell by these pressures (Pa).
+    fn displace(
+        &self,
+        pressure: &[f64],
+        displacement: &mut [f64],
+        scratch: &mut Scratches,
+    ) -> Result<(), ConvolutionError>;
+
+    /// Nearly the inverse of that, symmetric and positive, but for a factor; in these rows alone.
+    fn precondition(
+        &self,
+        gap: &[f64],
+        pressure: &mut [f64],
+        rows: Range<usize>,
+        scratch: &mut Scratches,
+    ) -> Result<(), ConvolutionError>;
+
+    /// The sum of the pressures (Pa), which is above zero or nil, and the displacement (m) to which gaps are relative, that they cause
+    /// or a bound of it from below; the gap (m) is the one they leave before the approach is taken off.
+    fn load(&self, pressure: &[f64], gap_m: &[f64], compliance_per_pa: f64) -> (f64, f64);
+}
+
+/// What the problem of an instant is, apart from its fields.
 #[derive(Clone, Copy)]
-pub(super) struct WindowProblem<'a> {
-    pub(super) whole: &'a Convolution,
-    pub(super) operators: &'a WindowOperators,
-    pub(super) frame: Frame,
+pub(super) struct InstantOfCells<'a> {
+    pub(super) elastic: &'a dyn Elastic,
     pub(super) compliance_per_pa: f64,
     /// Sum of the pressures, where the load is prescribed.
     pub(super) target_sum: Option<f64>,
@@ -36,9 +63,11 @@ pub(super) struct WindowProblem<'a> {
     pub(super) fast_steps: usize,
     /// What rounding leaves in a gap (m).
     pub(super) noise_m: f64,
+    /// Whether the contact has so many patches that cells of negative pressure had better wait.
+    pub(super) waits: bool,
 }
 
-/// Why the iteration in a window stopped.
+/// Why the iteration stopped.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum StopReason {
     /// To the tolerance.
@@ -79,12 +108,21 @@ pub(super) struct Work {
 }
 
 impl Work {
+    /// A step, and its convolution.
+    fn count_step(&mut self) {
+        self.steps += 1;
+        self.carried += 1;
+        self.convolutions += 1;
+    }
+
     /// [`ContactError::Interrupted`] where the instant is to end.
     pub(super) fn go_on(&self) -> Result<(), ContactError> {
         go_on(self.interrupt.as_deref())
     }
 }
 
+/// Steps over which a gap may be carried along by recursion before rounding has piled up in it.
+pub(super) const FRESH_STEPS: usize = 20;
 /// Steps after which the residual must have halved.
 const PATIENCE: usize = 40;
 /// Steps on one contact at most.
@@ -93,7 +131,40 @@ const STEPS_PER_CONTACT: usize = 50;
 const SHARE_BEFORE_JOINING: f64 = 0.2;
 /// Cells join that penetrate by this share of what the tolerance allows.
 const JOINING: f64 = 0.3;
-/// Fields of a window.
+/// The part of the residual at which waiting led astray, from which on it is tried again.
+const WELL_BELOW: f64 = 0.3;
+
+/// Whether cells of negative pressure may wait for the gaps inside the contact to shrink. That is by far the faster way for many patches, and
+/// may lead away from the solution: where it has, they leave at once until the residual is well below where that began.
+struct Waiting {
+    is_possible: bool,
+    waits: bool,
+    last: f64,
+    below: f64,
+}
+
+impl Waiting {
+    fn new(is_possible: bool) -> Self {
+        Self {
+            is_possible,
+            waits: false,
+            last: f64::INFINITY,
+            below: f64::INFINITY,
+        }
+    }
+
+    /// Whether they wait from this residual on.
+    fn after(&mut self, residual: f64) -> bool {
+        if self.waits && residual > self.last {
+            self.below = WELL_BELOW * self.last;
+        }
+        self.last = residual;
+        self.waits = self.is_possible && residual < self.below;
+        self.waits
+    }
+}
+
+/// Fields of one value per cell.
 #[derive(Debug, Default)]
 pub(super) struct ActiveSet {
     pub(super) pressure: Vec<f64>,
@@ -103,6 +174,8 @@ pub(super) struct ActiveSet {
     pub(super) field: Vec<f64>,
     pub(super) image: Vec<f64>,
     contact: Spans,
+    /// How far the gap inside the contact was from none when last seen (m).
+    misfit_m: f64,
     /// On the contact alone, without gaps: the residual, preconditioned, that of the step before, direction, and the
     /// preconditioned constant.
     residual: Vec<f64>,
@@ -128,12 +201,14 @@ impl ActiveSet {
     /// Solves from the pressure and gap given, until the residual is below the tolerance or `steps` are counted.
     pub(super) fn solve(
         &mut self,
-        problem: &WindowProblem<'_>,
+        problem: &InstantOfCells<'_>,
         steps: usize,
         scratch: &mut Scratches,
         work: &mut Work,
     ) -> Result<(IterateState, StopReason), ContactError> {
         let (mut best, mut best_at) = (f64::INFINITY, work.steps);
+        let mut waiting = Waiting::new(problem.waits);
+        self.misfit_m = 0.0;
         let steps = steps.min(problem.fast_steps);
         loop {
             let state = self.assess(problem);
@@ -152,56 +227,44 @@ impl ActiveSet {
             if work.steps > best_at + PATIENCE || self.contact.cells() == 0 {
                 return Ok((state, StopReason::Stalled));
             }
-            if !self.solve_on_contact(problem, &state, steps, scratch, work)? {
+            let waits = waiting.after(state.residual);
+            if !self.solve_on_contact(problem, (&state, waits), steps, scratch, work)? {
                 return Ok((state, StopReason::Stalled));
             }
         }
     }
 
     /// Gaps, penetration and contact: the cells with pressure, and those that penetrate.
-    fn assess(&mut self, problem: &WindowProblem<'_>) -> IterateState {
-        let cells_x = problem.frame.cells_x;
-        let grid = problem.whole.grid();
-        let step_y = grid.spacing_y_m() / grid.spacing_x_m();
-        let (mut moments, first) = (Moments::default(), first_centre(grid));
+    fn assess(&mut self, problem: &InstantOfCells<'_>) -> IterateState {
+        let (pressure_sum, own_m) =
+            problem
+                .elastic
+                .load(&self.pressure, &self.gap_m, problem.compliance_per_pa);
         let mut lifted = 0.0;
+        let cells_x = problem.elastic.cells_x();
         let rows = self.pressure.chunks_exact(cells_x);
-        for (iy, (pressure, gap_m)) in rows.zip(self.gap_m.chunks_exact(cells_x)).enumerate() {
-            moments.add_row(pressure, first, (iy as f64 + first) * step_y);
+        for (pressure, gap_m) in rows.zip(self.gap_m.chunks_exact(cells_x)) {
             // Where there is no indenter the gap is infinite and the pressure zero.
             lifted += sums(pressure, gap_m, |p, gap| {
                 [if p > 0.0 { p * gap } else { 0.0 }]
             })[0];
         }
+        let mean = |sum: f64| match pressure_sum > 0.0 {
+            true => sum / pressure_sum,
+            false => 0.0,
+        };
         let mut state = IterateState {
-            pressure_sum: moments.sum(),
+            pressure_sum,
+            approach_m: problem.approach_m.unwrap_or(mean(lifted)),
+            reference_m: own_m + problem.noise_m / problem.tolerance,
             ..IterateState::default()
         };
-        let loaded = state.pressure_sum > 0.0;
-        let mean = |sum: f64| match loaded {
-            true => sum / state.pressure_sum,
-            false => 0.0,
-        };
-        state.approach_m = problem.approach_m.unwrap_or(mean(lifted));
-        let own_m = match loaded {
-            true => {
-                let moments = moments.of_all_copies(grid);
-                let bound = moments.mean_displacement_lower_bound(step_y) * grid.spacing_y_m();
-                match problem.whole.layer() {
-                    None => bound,
-                    // Of a disc under uniform pressure the radius, in which waves of its own length are counted.
-                    Some(layer) => {
-                        let (_, spread) = moments.centre_and_spread(step_y);
-                        let radius_m = (2.0 * spread).sqrt() * grid.spacing_x_m();
-                        bound * layer.softening(layer.thickness_m / radius_m).min(1.0)
-                    }
-                }
-            }
-            false => 0.0,
-        };
-        state.reference_m = problem.compliance_per_pa * own_m + problem.noise_m / problem.tolerance;
-        let joining_m = -JOINING * problem.tolerance * state.reference_m;
-        let (misfit, highest_m, lowest_m) = self.find_contact(problem, &state, joining_m);
+        let mut joining_m = JOINING * problem.tolerance * state.reference_m;
+        if problem.waits {
+            // What penetrates less than the gaps inside are uncertain may not do so in the end.
+            joining_m = joining_m.max(self.misfit_m);
+        }
+        let (misfit, highest_m, lowest_m) = self.find_contact(problem, &state, -joining_m);
         let inside_m = mean(misfit);
         let worst_m = inside_m.max(highest_m / STANDING_OFF).max(-lowest_m);
         state.residual = if worst_m > 0.0 {
@@ -216,12 +279,12 @@ impl ActiveSet {
     /// p |gap|, the highest gap under pressure, at least 0, and the lowest gap outside, at most 0 (m).
     fn find_contact(
         &mut self,
-        problem: &WindowProblem<'_>,
+        problem: &InstantOfCells<'_>,
         state: &IterateState,
         joining_m: f64,
     ) -> (f64, f64, f64) {
         let (mut misfit, mut lowest_m, mut highest_m) = (0.0, 0.0_f64, 0.0_f64);
-        let cells_x = problem.frame.cells_x;
+        let cells_x = problem.elastic.cells_x();
         self.contact.clear();
         let rows = self.pressure.chunks_exact(cells_x);
         for (iy, (pressure, gaps_m)) in rows.zip(self.gap_m.chunks_exact(cells_x)).enumerate() {
@@ -247,11 +310,11 @@ impl ActiveSet {
         (misfit, highest_m, lowest_m)
     }
 
-    /// Conjugate gradients on the contact as it is. False where there is no way down.
+    /// Conjugate gradients on the contact as it is; whether cells of negative pressure wait. False where there is no way down.
     fn solve_on_contact(
         &mut self,
-        problem: &WindowProblem<'_>,
-        state: &IterateState,
+        problem: &InstantOfCells<'_>,
+        (state, waits): (&IterateState, bool),
         steps: usize,
         scratch: &mut Scratches,
         work: &mut Work,
@@ -270,16 +333,23 @@ impl ActiveSet {
         self.field.fill(0.0);
         let constant_sum = self.precondition_constant(problem, scratch)?;
         let (mut previous, mut first_misfit, mut least_outside_m) = (0.0, 0.0, f64::INFINITY);
+        let mut has_negative = false;
         for inner in 0..STEPS_PER_CONTACT {
             work.go_on()?;
-            let (misfit, approach_m) = self.update_residual(problem);
-            let misfit = misfit / state.reference_m;
+            let approach_m;
+            (self.misfit_m, approach_m) = self.update_residual(problem);
+            let misfit = self.misfit_m / state.reference_m;
             if inner == 0 {
                 first_misfit = misfit;
             } else {
                 let penetration = (approach_m - least_outside_m) / state.reference_m;
-                let enough = misfit < SHARE_BEFORE_JOINING * first_misfit && penetration > misfit;
-                if enough || misfit < 0.7 * problem.tolerance || work.steps >= steps {
+                let has_shrunk = misfit < SHARE_BEFORE_JOINING * first_misfit;
+                let is_done = misfit < 0.7 * problem.tolerance || work.steps >= steps;
+                if has_negative && (has_shrunk || is_done) {
+                    self.empty_negative(problem, scratch, work)?;
+                    return Ok(true);
+                }
+                if is_done || has_shrunk && penetration > misfit {
                     return Ok(true);
                 }
             }
@@ -293,15 +363,11 @@ impl ActiveSet {
             let Some(step) = self.step_length(problem, beta, scratch)? else {
                 return Ok(false);
             };
-            work.steps += 1;
-            work.carried += 1;
-            work.convolutions += 1;
-            let emptied;
-            (emptied, least_outside_m) = self.advance(problem.compliance_per_pa, step);
-            if emptied {
-                self.empty_negative(problem, scratch)?;
-                work.carried += 1;
-                work.convolutions += 1;
+            work.count_step();
+            (has_negative, least_outside_m) = self.advance(problem.compliance_per_pa, step);
+            let waits = waits && inner + 1 < STEPS_PER_CONTACT;
+            if has_negative && !waits {
+                self.empty_negative(problem, scratch, work)?;
                 return Ok(true);
             }
         }
@@ -311,7 +377,7 @@ impl ActiveSet {
     /// The preconditioned constant under load control, and its sum.
     fn precondition_constant(
         &mut self,
-        problem: &WindowProblem<'_>,
+        problem: &InstantOfCells<'_>,
         scratch: &mut Scratches,
     ) -> Result<Option<f64>, ContactError> {
         if problem.target_sum.is_none() {
@@ -327,19 +393,17 @@ impl ActiveSet {
     /// The preconditioner applied to `field`, in the rows of `image` that have contact.
     fn apply_preconditioner(
         &mut self,
-        problem: &WindowProblem<'_>,
+        problem: &InstantOfCells<'_>,
         scratch: &mut Scratches,
     ) -> Result<(), ContactError> {
-        let rows = self.contact.rows(problem.frame.cells_x);
-        let preconditioner = &problem.operators.preconditioner;
-        let scratch = &mut scratch.preconditioner;
-        Ok(preconditioner.apply(&self.field, &mut self.image, rows, scratch)?)
+        let rows = self.contact.rows(problem.elastic.cells_x());
+        Ok((problem.elastic).precondition(&self.field, &mut self.image, rows, scratch)?)
     }
 
     /// The residual: the approach, or under load control the mean over the contact of the gap before it, less that gap.
     /// Returns how far the gap is from none (m), on average by pressure or, if that says more, where it is highest; and the
     /// approach of which it is the gap.
-    fn update_residual(&mut self, problem: &WindowProblem<'_>) -> (f64, f64) {
+    fn update_residual(&mut self, problem: &InstantOfCells<'_>) -> (f64, f64) {
         let (mut gaps, mut pressures, mut lifted) = (0.0, 0.0, 0.0);
         for (run, _) in self.contact.runs() {
             let terms = |p: f64, gap: f64| [gap, p, p * gap];
@@ -380,7 +444,7 @@ impl ActiveSet {
     /// with the residual, and with the change of the residual's preconditioned form since the last step.
     fn precondition(
         &mut self,
-        problem: &WindowProblem<'_>,
+        problem: &InstantOfCells<'_>,
         constant_sum: Option<f64>,
         scratch: &mut Scratches,
     ) -> Result<(f64, f64), ContactError> {
@@ -402,7 +466,7 @@ impl ActiveSet {
     /// nowhere.
     fn step_length(
         &mut self,
-        problem: &WindowProblem<'_>,
+        problem: &InstantOfCells<'_>,
         beta: f64,
         scratch: &mut Scratches,
     ) -> Result<Option<f64>, ContactError> {
@@ -410,7 +474,7 @@ impl ActiveSet {
             *t = z + beta * *t;
         }
         self.contact.scatter(&self.direction, &mut self.field);
-        convolve(problem, &self.field, &mut self.image, scratch)?;
+        (problem.elastic).displace(&self.field, &mut self.image, scratch)?;
         let mut curvature = 0.0;
         for (run, at) in self.contact.runs() {
             curvature += dot(&self.direction[at], &self.image[run]);
@@ -444,8 +508,9 @@ impl ActiveSet {
     /// Takes cells of negative pressure out of the contact, keeping the load, and follows with the gap.
     fn empty_negative(
         &mut self,
-        problem: &WindowProblem<'_>,
+        problem: &InstantOfCells<'_>,
         scratch: &mut Scratches,
+        work: &mut Work,
     ) -> Result<(), ContactError> {
         let scale = match problem.target_sum {
             None => 1.0,
@@ -467,20 +532,12 @@ impl ActiveSet {
                 *p = kept;
             }
         }
-        convolve(problem, &self.field, &mut self.image, scratch)?;
+        (problem.elastic).displace(&self.field, &mut self.image, scratch)?;
+        work.carried += 1;
+        work.convolutions += 1;
         for (gap, image) in self.gap_m.iter_mut().zip(&self.image) {
             *gap += problem.compliance_per_pa * image;
         }
         Ok(())
     }
-}
-
-fn convolve(
-    problem: &WindowProblem<'_>,
-    field: &[f64],
-    image: &mut [f64],
-    scratch: &mut Scratches,
-) -> Result<(), ContactError> {
-    let convolution = &problem.operators.convolution;
-    Ok(convolution.apply(field, image, &mut scratch.convolution)?)
 }
