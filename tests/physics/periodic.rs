@@ -210,6 +210,29 @@ fn from_a_hundredth_in_contact_to_all_but_a_thousandth_few_steps_find_what_the_s
 }
 
 #[test]
+fn threads_share_an_instant_and_agree_to_the_last_bit() {
+    let (grid, gaps, slope) = self_affine(256, 0.8, 3);
+    let load_n = 0.2 * slope / COMPLIANCE * grid.cells() as f64 * grid.cell_area_m2();
+    let operator = Arc::new(PeriodicOperator::new(grid));
+    let run = || {
+        let mut engine = Periodic::new(Arc::clone(&operator), gaps.clone(), to_tolerance(1e-8));
+        let (found, pressure) =
+            first_touch(&mut engine, COMPLIANCE, Prescribed::LoadN(load_n)).unwrap();
+        let bits = pressure.into_iter().map(f64::to_bits);
+        (
+            found.approach_m.to_bits(),
+            found.iterations,
+            bits.collect::<Vec<u64>>(),
+        )
+    };
+    let alone = run();
+    for threads in [1, 2, 5] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        assert!(pool.build().unwrap().install(run) == alone, "{threads}");
+    }
+}
+
+#[test]
 fn steps_grow_slowly_with_the_cells_of_a_rough_surface() {
     let steps = |cells: usize| {
         let (grid, gaps, slope) = self_affine(cells, 0.5, 7);

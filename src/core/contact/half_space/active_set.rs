@@ -19,9 +19,9 @@ use std::sync::atomic::AtomicBool;
 
 use super::convolution::{ConvolutionError, Scratch};
 use super::instant::STANDING_OFF;
-use crate::contact::sums::{dot, least, least_of, sum, sums};
+use crate::contact::sums::{add_scaled, dot, least, least_of, sum, sums};
 use crate::contact::{ContactError, go_on};
-use spans::Spans;
+use spans::{OfBlocks, Run, Spans};
 
 /// A surface in cells that yields in proportion to the pressure: of a window, or of a period.
 pub(super) trait Elastic {
@@ -285,7 +285,7 @@ impl ActiveSet {
     ) -> (f64, f64, f64) {
         let (mut misfit, mut lowest_m, mut highest_m) = (0.0, 0.0_f64, 0.0_f64);
         let cells_x = problem.elastic.cells_x();
-        self.contact.clear();
+        self.contact.clear(self.pressure.len(), cells_x);
         let rows = self.pressure.chunks_exact(cells_x);
         for (iy, (pressure, gaps_m)) in rows.zip(self.gap_m.chunks_exact(cells_x)).enumerate() {
             let least_m = least(gaps_m) - state.approach_m;
@@ -383,11 +383,14 @@ impl ActiveSet {
         if problem.target_sum.is_none() {
             return Ok(None);
         }
-        self.constant.fill(1.0);
-        self.contact.scatter(&self.constant, &mut self.field);
+        self.contact
+            .each([&mut self.field], [], |block, [field], []| {
+                block.runs().for_each(|run| field[run.window].fill(1.0));
+                []
+            });
         self.apply_preconditioner(problem, scratch)?;
-        self.contact.gather(&self.image, &mut self.constant);
-        Ok(Some(sum(&self.constant)))
+        let sums = gather(&self.contact, &self.image, &mut self.constant);
+        Ok(Some(sums.total(0)))
     }
 
     /// The preconditioner applied to `field`, in the rows of `image` that have contact.
@@ -404,14 +407,21 @@ impl ActiveSet {
     /// Returns how far the gap is from none (m), on average by pressure or, if that says more, where it is highest; and the
     /// approach of which it is the gap.
     fn update_residual(&mut self, problem: &InstantOfCells<'_>) -> (f64, f64) {
-        let (mut gaps, mut pressures, mut lifted) = (0.0, 0.0, 0.0);
-        for (run, _) in self.contact.runs() {
-            let terms = |p: f64, gap: f64| [gap, p, p * gap];
-            let run = sums(&self.pressure[run.clone()], &self.gap_m[run], terms);
-            gaps += run[0];
-            pressures += run[1];
-            lifted += run[2];
-        }
+        let (pressure, gap_m) = (&self.pressure, &self.gap_m);
+        let found = self.contact.each([], [], |block, [], []| {
+            let (pressure, gap_m) = (
+                &pressure[block.window.clone()],
+                &gap_m[block.window.clone()],
+            );
+            let mut all = [0.0; 3];
+            for Run { window: run, .. } in block.runs() {
+                let terms = |p: f64, gap: f64| [gap, p, p * gap];
+                let own = sums(&pressure[run.clone()], &gap_m[run], terms);
+                (0..3).for_each(|n| all[n] += own[n]);
+            }
+            all
+        });
+        let [gaps, pressures, lifted] = [0, 1, 2].map(|which| found.total(which));
         let level_m = problem
             .approach_m
             .unwrap_or(gaps / self.contact.cells().max(1) as f64);
@@ -421,17 +431,28 @@ impl ActiveSet {
             None if loaded => lifted / pressures,
             None => level_m,
         };
-        let (mut misfit, mut least_negated_m) = (0.0, f64::INFINITY);
-        for (run, at) in self.contact.runs() {
-            let (pressure, gap_m) = (&self.pressure[run.clone()], &self.gap_m[run.clone()]);
-            misfit += sums(pressure, gap_m, |p, gap| [p * (gap - approach_m).abs()])[0];
-            least_negated_m = least_negated_m.min(least_of(gap_m, |gap| -gap));
-            for (r, gap) in self.residual[at.clone()].iter_mut().zip(gap_m) {
-                *r = level_m - gap;
-            }
-            self.field[run].copy_from_slice(&self.residual[at]);
-        }
-        let highest_m = -least_negated_m - approach_m;
+        let (window, contact) = ([&mut self.field[..]], [&mut self.residual[..]]);
+        let found = self
+            .contact
+            .each(window, contact, |block, [field], [residual]| {
+                let (pressure, gap_m) = (
+                    &pressure[block.window.clone()],
+                    &gap_m[block.window.clone()],
+                );
+                let (mut misfit, mut least_negated_m) = (0.0, f64::INFINITY);
+                for Run { window, contact } in block.runs() {
+                    let (pressure, gap_m) = (&pressure[window.clone()], &gap_m[window.clone()]);
+                    misfit += sums(pressure, gap_m, |p, gap| [p * (gap - approach_m).abs()])[0];
+                    least_negated_m = least_negated_m.min(least_of(gap_m, |gap| -gap));
+                    let both = field[window].iter_mut().zip(&mut residual[contact]);
+                    for ((f, r), gap) in both.zip(gap_m) {
+                        *r = level_m - gap;
+                        *f = *r;
+                    }
+                }
+                [misfit, least_negated_m]
+            });
+        let (misfit, highest_m) = (found.total(0), -found.least(1) - approach_m);
         let misfit_m = if loaded {
             (misfit / pressures).max(highest_m / STANDING_OFF)
         } else {
@@ -450,15 +471,19 @@ impl ActiveSet {
     ) -> Result<(f64, f64), ContactError> {
         std::mem::swap(&mut self.preconditioned, &mut self.last);
         self.apply_preconditioner(problem, scratch)?;
-        self.contact.gather(&self.image, &mut self.preconditioned);
-        if let Some(constant_sum) = constant_sum {
-            let share = sum(&self.preconditioned) / constant_sum;
-            for (z, one) in self.preconditioned.iter_mut().zip(&self.constant) {
-                *z -= share * one;
+        let sums = gather(&self.contact, &self.image, &mut self.preconditioned);
+        let share = constant_sum.map(|constant_sum| sums.total(0) / constant_sum);
+        let (residual, last, constant) = (&self.residual, &self.last, &self.constant);
+        let found = (self.contact).each([], [&mut self.preconditioned], |block, [], [z]| {
+            let at = || block.contact.clone();
+            if let Some(share) = share {
+                for (z, one) in z.iter_mut().zip(&constant[at()]) {
+                    *z -= share * one;
+                }
             }
-        }
-        let product = dot(&self.residual, &self.preconditioned);
-        let last = dot(&self.residual, &self.last);
+            [dot(&residual[at()], z), dot(&residual[at()], &last[at()])]
+        });
+        let (product, last) = (found.total(0), found.total(1));
         Ok((product, product - last))
     }
 
@@ -470,17 +495,30 @@ impl ActiveSet {
         beta: f64,
         scratch: &mut Scratches,
     ) -> Result<Option<f64>, ContactError> {
-        for (t, z) in self.direction.iter_mut().zip(&self.preconditioned) {
-            *t = z + beta * *t;
-        }
-        self.contact.scatter(&self.direction, &mut self.field);
+        let (residual, preconditioned) = (&self.residual, &self.preconditioned);
+        let (window, contact) = ([&mut self.field[..]], [&mut self.direction[..]]);
+        let found = self
+            .contact
+            .each(window, contact, |block, [field], [direction]| {
+                let at = || block.contact.clone();
+                for (t, z) in direction.iter_mut().zip(&preconditioned[at()]) {
+                    *t = z + beta * *t;
+                }
+                for Run { window, contact } in block.runs() {
+                    copy(&direction[contact], &mut field[window]);
+                }
+                [dot(&residual[at()], direction)]
+            });
+        let slope = found.total(0);
         (problem.elastic).displace(&self.field, &mut self.image, scratch)?;
-        let mut curvature = 0.0;
-        for (run, at) in self.contact.runs() {
-            curvature += dot(&self.direction[at], &self.image[run]);
-        }
-        curvature *= problem.compliance_per_pa;
-        let slope = dot(&self.residual, &self.direction);
+        let (direction, image) = (&self.direction, &self.image);
+        let found = self.contact.each([], [], |block, [], []| {
+            let direction = &direction[block.contact.clone()];
+            let image = &image[block.window.clone()];
+            let of_run = |run: Run| dot(&direction[run.contact], &image[run.window]);
+            [block.runs().map(of_run).sum()]
+        });
+        let curvature = problem.compliance_per_pa * found.total(0);
         let step = slope / curvature;
         Ok((curvature > 0.0 && step.is_finite()).then_some(step))
     }
@@ -489,20 +527,27 @@ impl ActiveSet {
     /// contact, before the approach is taken off.
     fn advance(&mut self, compliance_per_pa: f64, step: f64) -> (bool, f64) {
         let lift = step * compliance_per_pa;
-        for (gap, image) in self.gap_m.iter_mut().zip(&self.image) {
-            *gap += lift * image;
-        }
-        let mut lowest = f64::INFINITY;
-        for (run, at) in self.contact.runs() {
-            let pressure = &mut self.pressure[run];
-            for (p, t) in pressure.iter_mut().zip(&self.direction[at]) {
-                *p += step * t;
-            }
-            lowest = lowest.min(least(pressure));
-        }
-        let others = self.contact.others(self.gap_m.len());
-        let outside = others.map(|cells| least(&self.gap_m[cells]));
-        (lowest < 0.0, outside.fold(f64::INFINITY, f64::min))
+        let (direction, image) = (&self.direction, &self.image);
+        let window = [&mut self.gap_m[..], &mut self.pressure[..]];
+        let found = self
+            .contact
+            .each(window, [], |block, [gap_m, pressure], []| {
+                let direction = &direction[block.contact.clone()];
+                for (gap, image) in gap_m.iter_mut().zip(&image[block.window.clone()]) {
+                    *gap += lift * image;
+                }
+                let mut lowest = f64::INFINITY;
+                for Run { window, contact } in block.runs() {
+                    let pressure = &mut pressure[window];
+                    for (p, t) in pressure.iter_mut().zip(&direction[contact]) {
+                        *p += step * t;
+                    }
+                    lowest = lowest.min(least(pressure));
+                }
+                let outside = block.others().map(|cells| least(&gap_m[cells]));
+                [lowest, outside.fold(f64::INFINITY, f64::min)]
+            });
+        (found.least(0) < 0.0, found.least(1))
     }
 
     /// Takes cells of negative pressure out of the contact, keeping the load, and follows with the gap.
@@ -515,29 +560,58 @@ impl ActiveSet {
         let scale = match problem.target_sum {
             None => 1.0,
             Some(target) => {
-                let kept = |p: f64, _| [p.max(0.0)];
-                let runs = self.contact.runs();
-                let kept = runs.map(|(run, _)| {
-                    let pressure = &self.pressure[run];
-                    sums(pressure, pressure, kept)[0]
+                let pressure = &self.pressure;
+                let kept = self.contact.each([], [], |block, [], []| {
+                    let pressure = &pressure[block.window.clone()];
+                    let of_run = |run: Run| {
+                        let own = &pressure[run.window];
+                        sums(own, own, |p, _| [p.max(0.0)])[0]
+                    };
+                    [block.runs().map(of_run).sum()]
                 });
-                target / kept.sum::<f64>()
+                target / kept.total(0)
             }
         };
-        for (run, _) in self.contact.runs() {
-            let pressures = self.pressure[run.clone()].iter_mut();
-            for (p, change) in pressures.zip(&mut self.field[run]) {
-                let kept = scale * p.max(0.0);
-                *change = kept - *p;
-                *p = kept;
-            }
-        }
+        let window = [&mut self.pressure[..], &mut self.field[..]];
+        self.contact
+            .each(window, [], |block, [pressure, field], []| {
+                for Run { window, .. } in block.runs() {
+                    let pressures = pressure[window.clone()].iter_mut();
+                    for (p, change) in pressures.zip(&mut field[window]) {
+                        let kept = scale * p.max(0.0);
+                        *change = kept - *p;
+                        *p = kept;
+                    }
+                }
+                []
+            });
         (problem.elastic).displace(&self.field, &mut self.image, scratch)?;
         work.carried += 1;
         work.convolutions += 1;
-        for (gap, image) in self.gap_m.iter_mut().zip(&self.image) {
-            *gap += problem.compliance_per_pa * image;
-        }
+        let (image, lift) = (&self.image, problem.compliance_per_pa);
+        self.contact
+            .each([&mut self.gap_m], [], |block, [gap_m], []| {
+                add_scaled(gap_m, lift, &image[block.window.clone()]);
+                []
+            });
         Ok(())
+    }
+}
+
+/// Writes a field of the window into one of the contact, and sums it.
+fn gather(contact: &Spans, window: &[f64], values: &mut [f64]) -> OfBlocks<1> {
+    contact.each([], [values], |block, [], [values]| {
+        let window = &window[block.window.clone()];
+        for run in block.runs() {
+            copy(&window[run.window], &mut values[run.contact]);
+        }
+        [sum(values)]
+    })
+}
+
+/// Runs are short: a call for each would take longer than the copy.
+fn copy(from: &[f64], to: &mut [f64]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
     }
 }

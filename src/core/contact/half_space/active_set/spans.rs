@@ -1,26 +1,194 @@
 //! The cells of a contact, as runs along the rows of a window: a field on them is stored without gaps.
+//!
+//! A large window is cut into blocks of whole rows, which idle threads of the pool share. Where blocks begin depends on the window
+//! alone, and what is summed is summed block by block: results are the same for any number of threads.
 
 use std::ops::Range;
 
-/// Runs of cells in ascending order.
+/// Blocks of a large window at most.
+const BLOCKS: usize = 8;
+
+/// Cells of a window from which on it is cut.
+const FEWEST_CELLS: usize = 1 << 16;
+
+/// Runs of cells in ascending order; none goes on from one block into the next.
 #[derive(Debug, Default)]
 pub(super) struct Spans {
     runs: Vec<Range<usize>>,
     cells: usize,
+    /// Cells of the window.
+    window: usize,
+    /// Cells of a block; the last one may have fewer.
+    block: usize,
+    /// Where the first block that is not begun has its first cell.
+    next: usize,
+    /// Runs, and cells of the contact, before every block that is begun.
+    before: Vec<(usize, usize)>,
+}
+
+/// A run: its cells in the window and in a field of the contact, counted from the beginning of its block.
+pub(super) struct Run {
+    pub(super) window: Range<usize>,
+    pub(super) contact: Range<usize>,
+}
+
+/// A block of the window.
+#[derive(Debug, Clone)]
+pub(super) struct Block<'a> {
+    runs: &'a [Range<usize>],
+    /// Its cells in the window, and in a field of the contact.
+    pub(super) window: Range<usize>,
+    pub(super) contact: Range<usize>,
+}
+
+impl Block<'_> {
+    pub(super) fn runs(&self) -> impl Iterator<Item = Run> + '_ {
+        let mut at = 0;
+        self.runs.iter().map(move |run| {
+            let start = at;
+            at += run.len();
+            Run {
+                window: run.start - self.window.start..run.end - self.window.start,
+                contact: start..at,
+            }
+        })
+    }
+
+    /// Its cells that are in no run, counted from its beginning.
+    pub(super) fn others(&self) -> impl Iterator<Item = Range<usize>> + '_ {
+        let starts = std::iter::once(0).chain(self.runs().map(|run| run.window.end));
+        let ends = self.runs().map(|run| run.window.start);
+        starts
+            .zip(ends.chain(std::iter::once(self.window.len())))
+            .map(|(start, end)| start..end)
+    }
+}
+
+/// What every block came to.
+pub(super) struct OfBlocks<const N: usize> {
+    values: [[f64; N]; BLOCKS],
+    blocks: usize,
+}
+
+impl<const N: usize> OfBlocks<N> {
+    fn used(&self, which: usize) -> impl Iterator<Item = f64> + '_ {
+        self.values[..self.blocks].iter().map(move |own| own[which])
+    }
+
+    pub(super) fn total(&self, which: usize) -> f64 {
+        self.used(which).sum()
+    }
+
+    pub(super) fn least(&self, which: usize) -> f64 {
+        self.used(which).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Slices cut at the same place, each before and from there on.
+fn cut<const K: usize>(slices: [&mut [f64]; K], at: usize) -> ([&mut [f64]; K], [&mut [f64]; K]) {
+    let mut halves = slices.map(|slice| slice.split_at_mut(at));
+    let rests = halves.each_mut().map(|half| std::mem::take(&mut half.1));
+    (halves.map(|half| half.0), rests)
 }
 
 impl Spans {
-    pub(super) fn clear(&mut self) {
+    /// Begins anew on a window of rows of this many cells.
+    pub(super) fn clear(&mut self, window: usize, cells_x: usize) {
+        let rows = window / cells_x.max(1);
+        let is_cut = window >= FEWEST_CELLS && rows >= BLOCKS;
         self.runs.clear();
+        self.before.clear();
         self.cells = 0;
+        self.window = window;
+        self.block = if is_cut {
+            rows.div_ceil(BLOCKS) * cells_x
+        } else {
+            window
+        };
+        self.next = 0;
     }
 
     /// Adds a cell beyond all cells so far.
     pub(super) fn push(&mut self, cell: usize) {
+        let begins = cell >= self.next;
+        while cell >= self.next {
+            self.before.push((self.runs.len(), self.cells));
+            self.next += self.block;
+        }
         self.cells += 1;
         match self.runs.last_mut() {
-            Some(run) if run.end == cell => run.end += 1,
+            Some(run) if run.end == cell && !begins => run.end += 1,
             _ => self.runs.push(cell..cell + 1),
+        }
+    }
+
+    fn blocks(&self) -> usize {
+        self.window.div_ceil(self.block.max(1)).max(1)
+    }
+
+    /// Runs, and cells of the contact, before a block.
+    fn before(&self, block: usize) -> (usize, usize) {
+        let begun = self.before.get(block).copied();
+        begun.unwrap_or((self.runs.len(), self.cells))
+    }
+
+    fn block(&self, number: usize) -> Block<'_> {
+        let ((run, from), (end, to)) = (self.before(number), self.before(number + 1));
+        let start = number * self.block;
+        Block {
+            runs: &self.runs[run..end],
+            window: start..(start + self.block).min(self.window),
+            contact: from..to,
+        }
+    }
+
+    /// Does something to every block: to its part of fields of the window and of fields of the contact.
+    pub(super) fn each<const W: usize, const C: usize, const N: usize>(
+        &self,
+        window: [&mut [f64]; W],
+        contact: [&mut [f64]; C],
+        leaf: impl Fn(&Block<'_>, [&mut [f64]; W], [&mut [f64]; C]) -> [f64; N] + Sync,
+    ) -> OfBlocks<N> {
+        let blocks = self.blocks();
+        let mut values = [[0.0; N]; BLOCKS];
+        let fields = (window, contact);
+        self.each_of(0..blocks, fields, &mut values[..blocks], &leaf);
+        OfBlocks { values, blocks }
+    }
+
+    fn each_of<const W: usize, const C: usize, const N: usize>(
+        &self,
+        blocks: Range<usize>,
+        (window, contact): ([&mut [f64]; W], [&mut [f64]; C]),
+        values: &mut [[f64; N]],
+        leaf: &(impl Fn(&Block<'_>, [&mut [f64]; W], [&mut [f64]; C]) -> [f64; N] + Sync),
+    ) {
+        if let [value] = values {
+            *value = leaf(&self.block(blocks.start), window, contact);
+            return;
+        }
+        let middle = usize::midpoint(blocks.start, blocks.end);
+        let (values, others) = values.split_at_mut(middle - blocks.start);
+        let (first, from) = (blocks.start * self.block, self.before(blocks.start).1);
+        let (window, window_rest) = cut(window, middle * self.block - first);
+        let (contact, contact_rest) = cut(contact, self.before(middle).1 - from);
+        let these = || self.each_of(blocks.start..middle, (window, contact), values, leaf);
+        let those = || {
+            self.each_of(
+                middle..blocks.end,
+                (window_rest, contact_rest),
+                others,
+                leaf,
+            )
+        };
+        match rayon::current_thread_index() {
+            Some(_) if rayon::current_num_threads() > 1 => {
+                rayon::join(these, those);
+            }
+            _ => {
+                these();
+                those();
+            }
         }
     }
 
@@ -35,67 +203,82 @@ impl Spans {
         let last = self.runs.last().map_or(0, |run| run.end.div_ceil(cells_x));
         first..last
     }
-
-    /// Every run: its cells in the window, and in a field stored without gaps.
-    pub(super) fn runs(&self) -> impl Iterator<Item = (Range<usize>, Range<usize>)> + '_ {
-        let mut at = 0;
-        self.runs.iter().map(move |run| {
-            let start = at;
-            at += run.len();
-            (run.clone(), start..at)
-        })
-    }
-
-    /// The cells of a window of `cells` that are in no run.
-    pub(super) fn others(&self, cells: usize) -> impl Iterator<Item = Range<usize>> + '_ {
-        let starts = std::iter::once(0).chain(self.runs.iter().map(|run| run.end));
-        let ends = self.runs.iter().map(|run| run.start);
-        starts
-            .zip(ends.chain(std::iter::once(cells)))
-            .map(|(start, end)| start..end)
-    }
-
-    /// Writes a field stored without gaps into the window; other cells stay as they are.
-    pub(super) fn scatter(&self, values: &[f64], window: &mut [f64]) {
-        for (run, at) in self.runs() {
-            window[run].copy_from_slice(&values[at]);
-        }
-    }
-
-    /// The reverse.
-    pub(super) fn gather(&self, window: &[f64], values: &mut [f64]) {
-        for (run, at) in self.runs() {
-            values[at].copy_from_slice(&window[run]);
-        }
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn spans(window: usize, cells_x: usize, chosen: &[usize]) -> Spans {
+        let mut spans = Spans::default();
+        spans.clear(window, cells_x);
+        chosen.iter().for_each(|&cell| spans.push(cell));
+        spans
+    }
+
     #[test]
     fn runs_and_the_rest_make_up_the_window() {
         let chosen = [0, 1, 4, 5, 6, 11];
-        let mut spans = Spans::default();
-        chosen.iter().for_each(|&cell| spans.push(cell));
+        let spans = spans(12, 4, &chosen);
         assert_eq!((spans.cells(), spans.rows(4)), (6, 0..3));
-        let inside: Vec<usize> = spans.runs().flat_map(|(run, _)| run).collect();
+        let block = spans.block(0);
+        let inside: Vec<usize> = block.runs().flat_map(|run| run.window).collect();
         assert_eq!(inside, chosen);
-        let outside: Vec<usize> = spans.others(12).flatten().collect();
+        let outside: Vec<usize> = block.others().flatten().collect();
         assert_eq!(outside, [2, 3, 7, 8, 9, 10]);
         let mut window = [0.0; 12];
-        spans.scatter(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], &mut window);
+        let mut contact = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+        spans.each(
+            [&mut window],
+            [&mut contact],
+            |block, [window], [contact]| {
+                for run in block.runs() {
+                    window[run.window].copy_from_slice(&contact[run.contact]);
+                }
+                []
+            },
+        );
         assert_eq!((window[6], window[7], window[11]), (5.0, 0.0, 6.0));
-        let mut back = [0.0; 6];
-        spans.gather(&window, &mut back);
-        assert_eq!(back, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+    }
+
+    #[test]
+    fn blocks_of_a_large_window_have_every_cell_once_for_any_number_of_threads() {
+        let (window, cells_x) = (300 * 300, 300);
+        // Nothing in some blocks, and a run over the end of one.
+        let chosen: Vec<usize> = (0..window)
+            .filter(|cell| cell % 7 < 4 && !(20_000..45_000).contains(cell) && *cell < 80_000)
+            .collect();
+        let spans = spans(window, cells_x, &chosen);
+        assert_eq!(spans.blocks(), BLOCKS);
+        let values: Vec<f64> = chosen.iter().map(|cell| (*cell as f64).sqrt()).collect();
+        let run = || {
+            let (mut field, mut contact) = (vec![0.0; window], values.clone());
+            let found = spans.each([&mut field], [&mut contact], |block, [field], [contact]| {
+                assert_eq!(field.len(), block.window.len());
+                assert_eq!(contact.len(), block.contact.len());
+                for run in block.runs() {
+                    field[run.window].copy_from_slice(&contact[run.contact]);
+                }
+                let others: usize = block.others().map(|cells| cells.len()).sum();
+                [contact.iter().sum::<f64>(), others as f64]
+            });
+            assert_eq!(found.total(1) as usize, window - chosen.len());
+            for (cell, value) in chosen.iter().zip(&values) {
+                assert_eq!(field[*cell], *value);
+            }
+            found.total(0).to_bits()
+        };
+        let alone = run();
+        for threads in [1, 2, 5] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+            assert_eq!(pool.build().unwrap().install(run), alone);
+        }
     }
 
     #[test]
     fn without_cells_all_is_outside() {
-        let spans = Spans::default();
-        assert_eq!(spans.others(5).flatten().count(), 5);
+        let spans = spans(5, 5, &[]);
+        assert_eq!(spans.block(0).others().flatten().count(), 5);
         assert_eq!(spans.rows(3), 0..0);
     }
 }
