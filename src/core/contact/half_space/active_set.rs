@@ -11,115 +11,15 @@
 //! Changes of the contact are not proved to end, so the number of steps without progress is bounded; what is then left to do
 //! is done by [`polonsky_keer`](super::polonsky_keer), which descends.
 
+mod problem;
 mod spans;
 
-use std::ops::Range;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
-
-use super::convolution::{ConvolutionError, Scratch};
 use super::instant::STANDING_OFF;
+use crate::contact::ContactError;
 use crate::contact::sums::{add_scaled, dot, least, least_of, sum, sums};
-use crate::contact::{ContactError, go_on};
+use problem::Waiting;
+pub(super) use problem::{Elastic, InstantOfCells, IterateState, Scratches, StopReason, Work};
 use spans::{OfBlocks, Run, Spans};
-
-/// A surface in cells that yields in proportion to the pressure: of a window, or of a period.
-pub(super) trait Elastic {
-    /// Cells of a row.
-    fn cells_x(&self) -> usize;
-
-    /// The displacement (m per 1/Pa) of every cell by these pressures (Pa).
-    fn displace(
-        &self,
-        pressure: &[f64],
-        displacement: &mut [f64],
-        scratch: &mut Scratches,
-    ) -> Result<(), ConvolutionError>;
-
-    /// Nearly the inverse of that, symmetric and positive, but for a factor; in these rows alone.
-    fn precondition(
-        &self,
-        gap: &[f64],
-        pressure: &mut [f64],
-        rows: Range<usize>,
-        scratch: &mut Scratches,
-    ) -> Result<(), ConvolutionError>;
-
-    /// The sum of the pressures (Pa), which is above zero or nil, and the displacement (m) to which gaps are relative, that they cause
-    /// or a bound of it from below; the gap (m) is the one they leave before the approach is taken off.
-    fn load(&self, pressure: &[f64], gap_m: &[f64], compliance_per_pa: f64) -> (f64, f64);
-}
-
-/// What the problem of an instant is, apart from its fields.
-#[derive(Clone, Copy)]
-pub(super) struct InstantOfCells<'a> {
-    pub(super) elastic: &'a dyn Elastic,
-    pub(super) compliance_per_pa: f64,
-    /// Sum of the pressures, where the load is prescribed.
-    pub(super) target_sum: Option<f64>,
-    pub(super) approach_m: Option<f64>,
-    pub(super) tolerance: f64,
-    /// Steps of the instant after which this is not the way.
-    pub(super) fast_steps: usize,
-    /// What rounding leaves in a gap (m).
-    pub(super) noise_m: f64,
-    /// Whether the contact has so many patches that cells of negative pressure had better wait.
-    pub(super) waits: bool,
-}
-
-/// Why the iteration stopped.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum StopReason {
-    /// To the tolerance.
-    Converged,
-    /// Too little progress: not the way for this problem.
-    Stalled,
-    /// No steps are left.
-    OutOfSteps,
-}
-
-/// How far an iterate is from the solution.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct IterateState {
-    pub(super) approach_m: f64,
-    pub(super) pressure_sum: f64,
-    /// What the tolerance bounds.
-    pub(super) residual: f64,
-    /// Length to which gaps are relative (m).
-    pub(super) reference_m: f64,
-}
-
-/// Work space of the two operators: apart, so that neither has to be made to fit again and again.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Scratches {
-    pub(super) convolution: Scratch,
-    pub(super) preconditioner: Scratch,
-}
-
-/// Work counted, and whether to go on with it.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Work {
-    pub(super) steps: usize,
-    pub(super) convolutions: usize,
-    /// Steps since the gap was last computed afresh.
-    pub(super) carried: usize,
-    /// Set from outside to end the instant.
-    pub(super) interrupt: Option<Arc<AtomicBool>>,
-}
-
-impl Work {
-    /// A step, and its convolution.
-    fn count_step(&mut self) {
-        self.steps += 1;
-        self.carried += 1;
-        self.convolutions += 1;
-    }
-
-    /// [`ContactError::Interrupted`] where the instant is to end.
-    pub(super) fn go_on(&self) -> Result<(), ContactError> {
-        go_on(self.interrupt.as_deref())
-    }
-}
 
 /// Steps over which a gap may be carried along by recursion before rounding has piled up in it.
 pub(super) const FRESH_STEPS: usize = 20;
@@ -131,39 +31,6 @@ const STEPS_PER_CONTACT: usize = 50;
 const SHARE_BEFORE_JOINING: f64 = 0.2;
 /// Cells join that penetrate by this share of what the tolerance allows.
 const JOINING: f64 = 0.3;
-/// The part of the residual at which waiting led astray, from which on it is tried again.
-const WELL_BELOW: f64 = 0.3;
-
-/// Whether cells of negative pressure may wait for the gaps inside the contact to shrink. That is by far the faster way for many patches, and
-/// may lead away from the solution: where it has, they leave at once until the residual is well below where that began.
-struct Waiting {
-    is_possible: bool,
-    waits: bool,
-    last: f64,
-    below: f64,
-}
-
-impl Waiting {
-    fn new(is_possible: bool) -> Self {
-        Self {
-            is_possible,
-            waits: false,
-            last: f64::INFINITY,
-            below: f64::INFINITY,
-        }
-    }
-
-    /// Whether they wait from this residual on.
-    fn after(&mut self, residual: f64) -> bool {
-        if self.waits && residual > self.last {
-            self.below = WELL_BELOW * self.last;
-        }
-        self.last = residual;
-        self.waits = self.is_possible && residual < self.below;
-        self.waits
-    }
-}
-
 /// Fields of one value per cell.
 #[derive(Debug, Default)]
 pub(super) struct ActiveSet {

@@ -20,7 +20,7 @@ use super::convolution::ConvolutionError;
 pub use super::convolution::PeriodicOperator;
 use super::grid::Grid;
 use super::instant::{Imposed, ROUNDING, SolverSettings, start};
-use super::polonsky_keer::{InstantProblem, PolonskyKeer, Residual};
+use super::polonsky_keer::{InstantProblem, PolonskyKeer, Residual, lift_free_gap};
 use crate::contact::surface::{PressureLine, Response, Surface};
 use crate::contact::{
     ContactError, Engine, Instant, Prescribed, Solution, highest, sums, surface_of_cells,
@@ -65,23 +65,6 @@ impl Periodic {
     pub fn by_safeguard_alone(mut self) -> Self {
         self.fast_steps = 0;
         self
-    }
-
-    /// Sets the gap under the history alone. Returns what rounding leaves in it (m).
-    fn lift_free_gap(&mut self, history: &[f64], work: &mut Work) -> Result<f64, ContactError> {
-        if history.iter().all(|h| *h == 0.0) {
-            self.free_gap_m.copy_from_slice(&self.gap_m);
-            return Ok(0.0);
-        }
-        let scratch = &mut self.scratches.convolution;
-        self.operator
-            .apply(history, &mut self.free_gap_m, scratch)?;
-        work.convolutions += 1;
-        let largest_m = -sums::least_of(&self.free_gap_m, |lift| -lift.abs());
-        for (free, gap) in self.free_gap_m.iter_mut().zip(&self.gap_m) {
-            *free += gap;
-        }
-        Ok(ROUNDING * largest_m)
     }
 
     /// A first guess: the pressures of the same surface in cells of twice the width, which guess theirs likewise.
@@ -198,10 +181,6 @@ impl Periodic {
         pressure: &mut [f64],
         work: &mut Work,
     ) -> Result<f64, ContactError> {
-        let cells = self.gap_m.len();
-        let new = || Box::new(PolonskyKeer::new(cells));
-        let safeguard = self.safeguard.get_or_insert_with(new);
-        safeguard.convolutions = 0;
         let given = InstantProblem {
             operator: &|p, u, scratch| self.operator.apply(p, u, scratch),
             reference_m: Residual::displacement_range_m,
@@ -211,8 +190,8 @@ impl Periodic {
             imposed: Imposed::PressureSum(target_sum),
             interrupt: self.interrupt.as_deref(),
         };
-        let solved = safeguard.solve(&given, instant.history, pressure, work.steps);
-        work.convolutions += safeguard.convolutions;
+        let solved =
+            PolonskyKeer::take_over(&mut self.safeguard, &given, instant.history, pressure, work);
         let Some((residual, steps)) = solved? else {
             return Ok(sums::least(&self.free_gap_m));
         };
@@ -300,7 +279,12 @@ impl Engine for Periodic {
             interrupt: self.interrupt.clone(),
             ..Work::default()
         };
-        let noise_m = self.lift_free_gap(instant.history, &mut work)?;
+        let scratch = &mut self.scratches.convolution;
+        let displace = |q: &[f64], u: &mut [f64]| self.operator.apply(q, u, scratch);
+        let (gap_m, free_gap_m) = (&self.gap_m, &mut self.free_gap_m);
+        let noise_m = lift_free_gap(instant.history, gap_m, free_gap_m, displace)?;
+        work.convolutions += usize::from(noise_m.is_some());
+        let noise_m = noise_m.unwrap_or(0.0);
         let approach_m = if load_n == 0.0 {
             pressure.fill(0.0);
             sums::least(&self.free_gap_m)

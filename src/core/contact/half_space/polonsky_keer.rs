@@ -8,9 +8,10 @@
 
 use std::sync::atomic::AtomicBool;
 
+use super::active_set::Work;
 use super::convolution::{ConvolutionError, Scratch};
 use super::instant::{Imposed, ROUNDING, STANDING_OFF, SolverSettings, start};
-use crate::contact::{ContactError, go_on};
+use crate::contact::{ContactError, go_on, sums};
 
 /// The elastic operator B of a surface in cells: writes the displacement (m per 1/Pa) of every cell by these pressures (Pa).
 pub(super) type Operator<'a> =
@@ -18,9 +19,9 @@ pub(super) type Operator<'a> =
 
 /// Fields of the whole grid.
 pub(super) struct PolonskyKeer {
-    pub(super) scratch: Scratch,
+    scratch: Scratch,
     /// g + B H: the gap under no pressure, before the approach is taken off.
-    pub(super) free_gap_m: Vec<f64>,
+    free_gap_m: Vec<f64>,
     /// B p, without the compliance.
     displacement: Vec<f64>,
     /// B t.
@@ -29,7 +30,7 @@ pub(super) struct PolonskyKeer {
     /// What rounding leaves in a gap (m).
     noise_m: f64,
     /// Convolutions computed so far.
-    pub(super) convolutions: usize,
+    convolutions: usize,
 }
 
 /// What does not change during an instant.
@@ -55,7 +56,7 @@ struct IterationState {
 }
 
 impl PolonskyKeer {
-    pub(super) fn new(cells: usize) -> Self {
+    fn new(cells: usize) -> Self {
         Self {
             scratch: Scratch::default(),
             free_gap_m: vec![0.0; cells],
@@ -67,9 +68,24 @@ impl PolonskyKeer {
         }
     }
 
-    /// Solves from the pressure given, after `taken` iterations of another kind. Returns the residual at the end and all
-    /// iterations; `None` where no pressure at all is the solution.
-    pub(super) fn solve(
+    /// Solves what another way has left, from the pressure given; counts the convolutions. Returns the residual at the end and all
+    /// iterations; `None` where no pressure at all is the solution. `safeguard` is made when it is first needed.
+    pub(super) fn take_over(
+        safeguard: &mut Option<Box<Self>>,
+        given: &InstantProblem<'_>,
+        history: &[f64],
+        pressure: &mut [f64],
+        work: &mut Work,
+    ) -> Result<Option<(Residual, usize)>, ContactError> {
+        let new = || Box::new(Self::new(given.gap_m.len()));
+        let safeguard = safeguard.get_or_insert_with(new);
+        safeguard.convolutions = 0;
+        let solved = safeguard.solve(given, history, pressure, work.steps);
+        work.convolutions += safeguard.convolutions;
+        solved
+    }
+
+    fn solve(
         &mut self,
         given: &InstantProblem<'_>,
         history: &[f64],
@@ -86,25 +102,15 @@ impl PolonskyKeer {
         self.iterate(given, pressure, taken).map(Some)
     }
 
-    /// free gap = g + B H.
-    pub(super) fn prepare_free_gap(
+    fn prepare_free_gap(
         &mut self,
         given: &InstantProblem<'_>,
         history: &[f64],
     ) -> Result<(), ContactError> {
-        if history.iter().all(|h| *h == 0.0) {
-            self.free_gap_m.copy_from_slice(given.gap_m);
-            self.noise_m = 0.0;
-            return Ok(());
-        }
-        (given.operator)(history, &mut self.free_gap_m, &mut self.scratch)?;
-        self.convolutions += 1;
-        let mut largest_m = 0.0_f64;
-        for (free, gap) in self.free_gap_m.iter_mut().zip(given.gap_m) {
-            largest_m = largest_m.max(free.abs());
-            *free += gap;
-        }
-        self.noise_m = ROUNDING * largest_m;
+        let displace = |q: &[f64], u: &mut [f64]| (given.operator)(q, u, &mut self.scratch);
+        let noise_m = lift_free_gap(history, given.gap_m, &mut self.free_gap_m, displace)?;
+        self.convolutions += usize::from(noise_m.is_some());
+        self.noise_m = noise_m.unwrap_or(0.0);
         Ok(())
     }
 
@@ -300,7 +306,7 @@ impl PolonskyKeer {
     }
 
     /// The iteration. Returns the residual at the end and the iterations taken.
-    pub(super) fn iterate(
+    fn iterate(
         &mut self,
         given: &InstantProblem<'_>,
         pressure: &mut [f64],
@@ -349,6 +355,26 @@ impl PolonskyKeer {
             tolerance,
         })
     }
+}
+
+/// The gap under the history alone, before the approach is taken off: g + B H (m). Returns what rounding leaves in it (m); `None` where
+/// there is no history, and so nothing to displace.
+pub(super) fn lift_free_gap(
+    history: &[f64],
+    gap_m: &[f64],
+    free_gap_m: &mut [f64],
+    displace: impl FnOnce(&[f64], &mut [f64]) -> Result<(), ConvolutionError>,
+) -> Result<Option<f64>, ContactError> {
+    if history.iter().all(|h| *h == 0.0) {
+        free_gap_m.copy_from_slice(gap_m);
+        return Ok(None);
+    }
+    displace(history, free_gap_m)?;
+    let largest_m = -sums::least_of(free_gap_m, |lift| -lift.abs());
+    for (free, gap) in free_gap_m.iter_mut().zip(gap_m) {
+        *free += gap;
+    }
+    Ok(Some(ROUNDING * largest_m))
 }
 
 /// Scales the pressure to the prescribed sum; returns the factor, 1 where nothing is prescribed.

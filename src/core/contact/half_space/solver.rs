@@ -185,10 +185,6 @@ impl HalfSpace {
         work: &mut Work,
     ) -> Result<InstantResult, ContactError> {
         self.safeguarded += 1;
-        let cells = self.gap_m.len();
-        let new = || Box::new(PolonskyKeer::new(cells));
-        let safeguard = self.safeguard.get_or_insert_with(new);
-        safeguard.convolutions = 0;
         let given = InstantProblem {
             operator: &|p, u, scratch| self.operator.apply(p, u, scratch),
             reference_m: Residual::weighted_displacement_m,
@@ -196,10 +192,10 @@ impl HalfSpace {
             gap_m: &self.gap_m,
             compliance: instant.compliance_per_pa,
             imposed,
-            interrupt: work.interrupt.as_deref(),
+            interrupt: self.interrupt.as_deref(),
         };
-        let solved = safeguard.solve(&given, instant.history, pressure, work.steps);
-        work.convolutions += safeguard.convolutions;
+        let solved =
+            PolonskyKeer::take_over(&mut self.safeguard, &given, instant.history, pressure, work);
         let found = match solved? {
             None => {
                 pressure.fill(0.0);
