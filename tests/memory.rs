@@ -8,14 +8,17 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use common::engines::{cells_on, grid};
-use common::{pmma, pmma_material, pmma_plan, solid, sphere, sweep_plan, with, with_bars};
+use common::{pmma, pmma_material, pmma_plan, solid, sphere, step, sweep_plan, with, with_bars};
 use contact_dma::contact::Prescribed;
-use contact_dma::contact::half_space::predicted_memory_bytes;
-use contact_dma::drive::HarmonicDrive;
+use contact_dma::contact::half_space::CellField;
+use contact_dma::drive::{Control, HarmonicDrive, SegmentedDrive};
 use contact_dma::engine::EngineKind;
 use contact_dma::history::{March, TimeRule};
-use contact_dma::indenter::{Shifted, Sphere};
+use contact_dma::indenter::{Indenter, MapEdge, Roughness, Shifted, Sphere};
 use contact_dma::material::Material;
+use contact_dma::simulation::checkpoint::HistoryCheckpoint;
+use contact_dma::simulation::scenario::ScenarioPlan;
+use contact_dma::simulation::{Simulation, SimulationEnd};
 use contact_dma::sweep::Sweep;
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::case::checkpoint::Checkpoints;
@@ -135,6 +138,69 @@ fn a_case_holds_the_memory_predicted_whatever_material_and_engine() {
 }
 
 #[test]
+fn a_history_holds_the_memory_predicted_with_checkpoints_and_fields() {
+    let _alone = alone();
+    let rough = |edge, sphere_radius_m| {
+        let roughness = Roughness {
+            cells: 256,
+            spacing_m: 1e-6,
+            hurst_exponent: 0.8,
+            rms_height_m: 2e-8,
+            roll_off_wavelength_m: Some(64e-6),
+            cut_off_wavelength_m: 8e-6,
+            seed: 1,
+            sphere_radius_m,
+            edge,
+        };
+        Arc::new(roughness.map().unwrap()) as Arc<dyn Indenter>
+    };
+    let periodic = || rough(MapEdge::Periodic, None);
+    let three = || solid(1e9, &[(1e8, 0.1), (1e8, 1.0), (1e8, 10.0)], 0.4);
+    let offset = || Arc::new(Shifted::new(sphere(0.01), 1.37e-5, 7.1e-6).unwrap());
+    let area_m2 = (256e-6_f64).powi(2);
+    // Half and all of a period, a sphere that fills its domain, a quarter of it, a rough punch.
+    let histories: [(Arc<dyn Indenter>, f64, usize); 7] = [
+        (offset(), 10.0, 0),
+        (periodic(), 2e6 * area_m2, 0),
+        (periodic(), 1e9 * area_m2, 0),
+        (periodic(), 2e6 * area_m2, 3),
+        (offset(), 10.0, 2),
+        (sphere(0.01), 10.0, 0),
+        (rough(MapEdge::Rim, None), 10.0, 0),
+    ];
+    let mut failed = Vec::new();
+    for (k, (indenter, load_n, fields)) in histories.into_iter().enumerate() {
+        let drive = SegmentedDrive::new(Control::Load, vec![step(load_n, 1.0)]).unwrap();
+        let plan = with(ScenarioPlan::new(three(), indenter, drive), |plan| {
+            (plan.solver.engine, plan.solver.cells) = (EngineKind::HalfSpace, 256);
+            plan.step_s = Some(0.1);
+            plan.output.error_bars = false;
+            plan.output.fields_at_s = (1..=fields).map(|at| 0.1 * at as f64).collect();
+        });
+        let before = HELD.load(Ordering::Relaxed);
+        let simulation = Simulation::new(plan).unwrap();
+        let surface = HELD.load(Ordering::Relaxed).saturating_sub(before);
+        let predicted = simulation.predicted_memory_bytes() - 15_000_000;
+        let folder = tempfile::TempDir::new().unwrap();
+        let store = Store::open(folder.path(), "", false).unwrap();
+        let checkpoint = HistoryCheckpoint::of(&store, Duration::ZERO);
+        let counted = peak(|| {
+            let flag = AtomicBool::new(false);
+            let outcome = simulation.run_from(None, Some(&checkpoint), &flag, &|_, _| {});
+            assert_eq!(outcome.ended, SimulationEnd::Done);
+        });
+        // The map was there before.
+        let counted = counted + surface;
+        let ratio = predicted as f64 / counted as f64;
+        println!("{k}: {counted} bytes, predicted {ratio:.3} times that");
+        if !(0.8..1.2).contains(&ratio) {
+            failed.push((k, ratio));
+        }
+    }
+    assert!(failed.is_empty(), "{failed:?}");
+}
+
+#[test]
 #[cfg(feature = "report")]
 fn large_pictures_are_drawn_one_after_another_in_the_memory_predicted() {
     use contact_dma::figures::paper::drawing_bytes;
@@ -241,7 +307,12 @@ fn a_march_holds_the_memory_predicted_and_takes_no_more_while_it_steps() {
             march.step(&weights, Prescribed::LoadN(load_n)).unwrap();
         }
         let held = HELD.load(Ordering::Relaxed) - before;
-        let predicted = predicted_memory_bytes(&grid, compliance.branches().len());
+        let field = CellField {
+            grid,
+            is_periodic: false,
+            is_map: false,
+        };
+        let predicted = field.memory_bytes(compliance.branches().len());
         let ratio = predicted as f64 / held as f64;
         println!("{cells} cells: {held} bytes held, predicted {ratio:.3} times that");
         assert!((ratio - 1.0).abs() < 0.2, "{cells} cells: {ratio}");

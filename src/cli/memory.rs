@@ -2,6 +2,7 @@
 
 use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 
+use super::failure::Failure;
 use super::flags::RunFlags;
 use super::progress::line;
 use crate::figures::paper::drawing_bytes;
@@ -37,11 +38,22 @@ pub(super) fn free_here() -> String {
     }
 }
 
-/// Says on standard error, before a run starts, that what it takes on each of so many threads, or its figures where there are any,
-/// exceeds what is free.
-pub(super) fn warn_if_short(flags: &RunFlags, of_run: (u64, usize), figures: &FigurePlan) {
-    let Some(free) = free_bytes() else { return };
-    let (bytes_per_thread, threads) = of_run;
+/// Before a run starts and anything is written: says on standard error that what it takes on each of so many threads, or its figures
+/// where there are any, exceeds what is free.
+///
+/// # Errors
+/// [`Failure::input`] where not even one thread has room, by more than a prediction may be wrong.
+pub(super) fn check(
+    flags: &RunFlags,
+    (bytes_per_thread, threads): (u64, usize),
+    figures: &FigurePlan,
+) -> Result<(), Failure> {
+    let Some(free) = free_bytes() else {
+        return Ok(());
+    };
+    if let Some(refused) = refusal(bytes_per_thread, free) {
+        return Err(Failure::input(refused));
+    }
     let drawing_bytes = match flags.no_figures {
         true => 0,
         false => drawing_bytes(figures, flags.work.threads()),
@@ -58,7 +70,24 @@ pub(super) fn warn_if_short(flags: &RunFlags, of_run: (u64, usize), figures: &Fi
         .iter()
         .chain(&of_figures)
         .for_each(|text| line(text));
+    Ok(())
 }
+
+/// What a prediction may be too high by.
+const TOO_HIGH: f64 = 1.2;
+
+fn refusal(bytes: u64, free: u64) -> Option<String> {
+    (bytes as f64 > TOO_HIGH * free as f64).then(|| {
+        format!(
+            "a case takes about {} of memory, and {} are free\n  = help: {FEWER}",
+            megabytes(bytes),
+            megabytes(free),
+        )
+    })
+}
+
+/// What takes less.
+const FEWER: &str = "take fewer cells (solver.cells), or a machine with more memory";
 
 fn warning(bytes_per_thread: u64, threads: usize, free: u64) -> Option<String> {
     let needed = bytes_per_thread.saturating_mul(threads as u64);
@@ -67,7 +96,7 @@ fn warning(bytes_per_thread: u64, threads: usize, free: u64) -> Option<String> {
     }
     let fitting = free / bytes_per_thread.max(1);
     let instead = match fitting {
-        0 => "take fewer cells (solver.cells), or a machine with more memory".to_owned(),
+        0 => FEWER.to_owned(),
         _ => format!("take --threads {fitting}, or fewer cells (solver.cells)"),
     };
     let each = match threads {

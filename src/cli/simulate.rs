@@ -65,6 +65,8 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
             || Ok(forecast::history_text(&simulation, &memory::free_here()).into()),
         );
     }
+    let of_run = (simulation.predicted_memory_bytes(), 1);
+    memory::check(&flags.run, of_run, &simulation.plan().figures)?;
     let resolved = scenario::resolved_text(simulation.plan());
     let store = open_store(&flags.run, &document, &resolved)?;
     let (interrupt, quiet) = (interruption::keep_finished(), flags.run.work.quiet);
@@ -74,8 +76,6 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
     let template = "{wide_bar} {pos}/{len} steps, {eta} left";
     let bar = bar(simulation.moments(), template, quiet);
     let threads = flags.run.work.threads();
-    let of_run = (simulation.predicted_memory_bytes(), 1);
-    memory::warn_if_short(&flags.run, of_run, &simulation.plan().figures);
     let pool = run::pool(threads)?;
     let told = |done, _| bar.set_position(done as u64);
     let (simulation, flag, told) = (&simulation, &interrupt, &told);

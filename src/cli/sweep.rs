@@ -64,18 +64,18 @@ pub(super) fn run(flags: &SweepFlags, format: OutputFormat) -> Result<Ended, Fai
     if flags.dry_run {
         return plan::show(&setup, format);
     }
+    let threads = flags.run.work.threads();
+    let of_run = (setup.predicted_memory_bytes(), threads);
+    memory::check(&flags.run, of_run, &setup.plan().figures)?;
     let resolved = resolved::resolved_text(setup.plan());
     let store = open_store(&flags.run, &document, &resolved)?;
     let (interrupt, quiet) = (interruption::flag(), flags.run.work.quiet);
     let setup = setup.interrupted_by(Arc::clone(&interrupt));
-    let threads = flags.run.work.threads();
     let mode = Mode::Solve {
         threads,
         checkpoint_every: Duration::from_secs(flags.checkpoint_every),
         shard: flags.shard,
     };
-    let of_run = (setup.predicted_memory_bytes(), threads);
-    memory::warn_if_short(&flags.run, of_run, &setup.plan().figures);
     let mut job = Job {
         figures: !flags.run.no_figures,
         cycles: flags.cycles,

@@ -19,6 +19,7 @@
 pub(crate) mod column;
 pub(crate) mod grid;
 mod numbers;
+mod plain;
 pub(crate) mod section;
 mod text;
 pub(crate) mod units;
@@ -31,6 +32,7 @@ use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source};
 use super::document::{Located, cannot_read, read_limited};
 pub(crate) use column::{Column, Holds, TIME};
 use grid::{Grid, Line};
+pub(super) use plain::matrix as plain_matrix;
 use section::{Asked, Section};
 pub(crate) use section::{Holes, Table};
 use text::DELIMITERS;
@@ -389,8 +391,53 @@ mod tests {
         }
     }
 
+    /// The matrix of a text by the careful way.
+    fn careful(text: &str) -> Option<(usize, Vec<f64>)> {
+        let file = DataFile::from_bytes("a", text.as_bytes()).ok()?;
+        let table = file.matrix("").ok()?;
+        Some((table.width(), table.values))
+    }
+
+    #[test]
+    fn plain_matrices_take_the_short_way_and_others_do_not() {
+        for text in [
+            "1 2\n3 4\n",
+            "# m\n1;2\r\n\n 3 ; 4",
+            "1,2\n3e0,4.\n",
+            "1\t 2\n+3\t4",
+        ] {
+            let found = plain_matrix(text.as_bytes());
+            assert_eq!(found, Some((2, vec![1.0, 2.0, 3.0, 4.0])), "{text}");
+        }
+        for text in [
+            "1;2,5\n3;4",
+            "1 2\n3",
+            "1,2\n3,nan",
+            "\"1\",2\n3,4",
+            "1\r2",
+            "x,y\n1,2",
+        ] {
+            assert_eq!(plain_matrix(text.as_bytes()), None, "{text}");
+        }
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        #[test]
+        fn the_short_way_reads_what_the_careful_way_reads(
+            pieces in prop::collection::vec(
+                prop::sample::select(vec![
+                    ",", ";", "\t", "|", " ", "\n", "\n", "\r\n", "1", "2.5", "1,234", "2e3", "-1", "NaN", "1.000", "#", "\u{feff}",
+                ]),
+                0..20,
+            ),
+        ) {
+            let text = pieces.concat();
+            if let Some(found) = plain_matrix(text.as_bytes()) {
+                prop_assert_eq!(Some(found), careful(&text));
+            }
+        }
 
         #[test]
         fn any_text_is_read_or_refused_but_never_panics(

@@ -6,7 +6,7 @@
 pub(super) mod npy;
 mod points;
 
-use super::data_file::{Column, DataFile, Holes};
+use super::data_file::{Column, DataFile, Holes, MAX_BYTES, plain_matrix};
 use super::diagnostic::{Diagnostic, Diagnostics};
 use crate::quantity::Dimension;
 
@@ -46,18 +46,24 @@ pub fn field(name: &str, bytes: &[u8]) -> Result<Field, Diagnostics> {
     if bytes.starts_with(npy::MAGIC) {
         return npy::read(name, bytes).map_err(Diagnostics::from);
     }
+    let matrix = |cells_x, values: Vec<f64>| Field {
+        cells_x,
+        cells_y: values.len() / cells_x,
+        values_m: values,
+        spacing_m: None,
+    };
+    if bytes.len() <= MAX_BYTES
+        && let Some((cells_x, values)) = plain_matrix(bytes)
+    {
+        return Ok(matrix(cells_x, values));
+    }
     let file = DataFile::from_bytes(name, bytes)?;
     if file.has_any(&MAP_COLUMNS) {
         let table = file.columns(&MAP_COLUMNS, Holes::Refused, HOLE)?;
         return points::field(&file, &table).map_err(Diagnostics::from);
     }
     let table = file.matrix(HOLE)?;
-    Ok(Field {
-        cells_x: table.width(),
-        cells_y: table.len(),
-        values_m: table.values,
-        spacing_m: None,
-    })
+    Ok(matrix(table.width(), table.values))
 }
 
 /// A profile, as pairs of radius and gap (m), from the bytes of a file.

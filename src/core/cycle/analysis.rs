@@ -1,5 +1,6 @@
 //! What a hysteresis loop says: energy loss by two routes, phase lag, harmonics, equivalent complex modulus.
 
+use contact_dma_transforms::Precision as _;
 use std::f64::consts::{PI, TAU};
 
 use num_complex::Complex;
@@ -245,7 +246,7 @@ fn spectrum(samples: &[f64]) -> Result<Vec<Complex<f64>>, LoopError> {
     let n = samples.len() - 1;
     let mut periodic = samples[..n].to_vec();
     periodic[0] = 0.5 * (samples[0] + samples[n]);
-    let transform = contact_dma_transforms::real_forward(n);
+    let transform = f64::real_forward(n);
     let mut output = transform.make_output_vec();
     transform
         .process(&mut periodic, &mut output)

@@ -6,8 +6,10 @@
 //! nodes are twice as wide, each covers two of them, or two by two, exactly. What H is made of moves in the same way, for both
 //! transforms are linear; the instant under way is then solved on the wider domain.
 
+use std::borrow::Cow;
+
 use crate::contact::half_space::grid::Grid;
-use crate::history::{Extrapolation, StepState};
+use crate::history::{PastState, StepState};
 use crate::indenter::Indenter;
 
 /// Where the nodes of an engine are.
@@ -121,23 +123,26 @@ impl Moving {
 }
 
 /// The state within a step of a march on the nodes of `from`, as a march on those of `to` goes on from it.
-pub(crate) fn moved(state: StepState, from: &Layout, to: &Layout) -> StepState {
+pub(crate) fn moved(state: StepState<'_>, from: &Layout, to: &Layout) -> StepState<'static> {
     let moving = Moving::new(from, to);
-    let fields = |fields: &[f64]| -> Vec<f64> {
+    let fields = |fields: &[f64]| -> Cow<'static, [f64]> {
         let each = fields.chunks_exact(from.nodes());
         each.flat_map(|field| moving.field(field)).collect()
     };
-    let mut memory = state.memory;
-    for part in &mut memory.nodal {
-        *part = fields(part);
-    }
     StepState {
-        memory,
+        stage: state.stage,
+        memory: PastState {
+            nodal: (state.memory.nodal.iter())
+                .map(|part| fields(part))
+                .collect(),
+            steps: Cow::Owned(state.memory.steps.into_owned()),
+        },
         guess: fields(&state.guess),
         history: fields(&state.history),
         // Guesses start anew.
-        course: state.course.map(|_| Extrapolation::default()),
-        ..state
+        course: state.course.map(|_| Cow::default()),
+        solution: state.solution,
+        work: state.work,
     }
 }
 

@@ -18,7 +18,7 @@ use crate::contact::half_space::convolution::Convolution;
 use crate::contact::half_space::grid::Grid;
 use crate::contact::half_space::layer::{Layer, LayerInfluence};
 use crate::contact::half_space::periodic::{Periodic, PeriodicOperator};
-use crate::contact::half_space::{HalfSpace, SolverSettings, predicted_memory_bytes};
+use crate::contact::half_space::{CellField, HalfSpace, SolverSettings};
 use crate::contact::{Engine, Prescribed};
 use crate::drive::{Control, HarmonicDrive};
 use crate::engine::domain::{FEWEST_ACROSS, GROWTH};
@@ -290,7 +290,14 @@ impl EngineBuilder {
         /// Fields of springs in engine and march.
         const FIELDS: usize = 12;
         match &self.grid {
-            Some(grid) => predicted_memory_bytes(grid, branches),
+            Some(grid) => {
+                let field = CellField {
+                    grid: *grid,
+                    is_periodic: self.indenter.is_periodic(),
+                    is_map: self.indenter.is_periodic() || self.indenter.ends_in_data(),
+                };
+                field.memory_bytes(branches)
+            }
             None => {
                 let springs = self.solver.springs;
                 // The table of roots of the pressure: half a square.

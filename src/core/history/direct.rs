@@ -13,6 +13,8 @@
 //! S. Spinu, Advances in Tribology 2018, 9432894, and of first order. A jump of the drive is a step of length zero. In a
 //! damped step ([`Hereditary::stages`]) part of the increment comes at the step's begin, where it counts with C(t_n - t_(k-1)).
 
+use std::borrow::Cow;
+
 use super::hereditary::{Hereditary, PastState};
 use super::rule::{DirectWeights, Stage, Step, TimeRule};
 use crate::material::interpolant::Interpolant;
@@ -146,22 +148,25 @@ impl<C: ComplianceFunction> Hereditary for DirectMemory<C> {
         self.compliance.shortest_time_s()
     }
 
-    fn state(&self) -> PastState {
+    fn state(&self) -> PastState<'_> {
         PastState {
-            nodal: vec![self.increments.clone(), self.last.clone()],
-            steps: self.steps.clone(),
+            nodal: [&self.increments, &self.last]
+                .map(|field| Cow::Borrowed(&field[..]))
+                .into(),
+            steps: Cow::Borrowed(&self.steps),
         }
     }
 
-    fn restore(&mut self, state: &PastState) -> bool {
-        let [increments, last] = &state.nodal[..] else {
+    fn restore(&mut self, state: PastState<'_>) -> bool {
+        let Ok([increments, last]) = <[_; 2]>::try_from(state.nodal) else {
             return false;
         };
         let fits = increments.len() == state.steps.len() * self.nodes && last.len() == self.nodes;
         if fits {
-            self.steps.clone_from(&state.steps);
-            self.increments.clone_from(increments);
-            self.last.copy_from_slice(last);
+            self.steps = state.steps.into_owned();
+            // Into the room there is for those to come.
+            increments.as_ref().clone_into(&mut self.increments);
+            self.last = last.into_owned();
         }
         fits
     }

@@ -1,16 +1,18 @@
 //! What time marching asks of the body's past, however it is kept.
 
+use std::borrow::Cow;
+
 use serde::{Deserialize, Serialize};
 
 use super::rule::{DirectWeights, Stage, Step, TimeRule};
 
-/// Everything that the past of a body keeps.
+/// Everything that the past of a body keeps, lent so that no copy is made of what may fill much of the memory.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PastState {
+pub struct PastState<'a> {
     /// Values per node, in every part any number of fields one after another.
-    pub nodal: Vec<Vec<f64>>,
+    pub nodal: Vec<Cow<'a, [f64]>>,
     /// The steps taken, where the past is kept in full.
-    pub steps: Vec<Step<DirectWeights>>,
+    pub steps: Cow<'a, [Step<DirectWeights>]>,
 }
 
 /// The past of a body: gives the hereditary part of the next instant, and takes in its pressure.
@@ -36,9 +38,9 @@ pub trait Hereditary {
     fn shortest_time_s(&self) -> Option<f64>;
 
     /// Everything it keeps, for [`Hereditary::restore`].
-    fn state(&self) -> PastState;
+    fn state(&self) -> PastState<'_>;
 
     /// Goes back to what a past of the same compliance kept. False, and nothing done, where the state is none of this
     /// compliance on this number of nodes.
-    fn restore(&mut self, state: &PastState) -> bool;
+    fn restore(&mut self, state: PastState<'_>) -> bool;
 }

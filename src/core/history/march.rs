@@ -1,5 +1,7 @@
 //! Time marching: one engine, its memory, and the last pressure, moved from instant to instant.
 
+use std::borrow::Cow;
+
 use serde::{Deserialize, Serialize};
 
 use crate::contact::half_space::grid::Grid;
@@ -28,17 +30,17 @@ pub struct March<'a, M = Memory> {
 
 /// A march between the halves of a step, where a long instant may be given up: enough to go on from there, bit for bit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct StepState {
+pub struct StepState<'a> {
     /// The stage of the step, from 0.
     pub stage: usize,
     /// As [`Hereditary::state`].
-    pub memory: PastState,
+    pub memory: PastState<'a>,
     /// The pressure from which the instant is solved.
-    pub guess: Vec<f64>,
+    pub guess: Cow<'a, [f64]>,
     /// The hereditary part of the instant.
-    pub history: Vec<f64>,
+    pub history: Cow<'a, [f64]>,
     /// What the guesses look back on, of an engine that asks for one.
-    pub course: Option<Extrapolation>,
+    pub course: Option<Cow<'a, Extrapolation>>,
     /// The instant before.
     pub solution: Option<Solution>,
     pub work: Work,
@@ -298,13 +300,13 @@ impl<'a, M: Hereditary> March<'a, M> {
     }
 
     /// Where the march stands between the halves of a stage of a step whose guess this is, for [`March::restore_step`].
-    pub fn step_state(&self, stage: usize, guess: &[f64]) -> StepState {
+    pub fn step_state<'s>(&'s self, stage: usize, guess: &'s [f64]) -> StepState<'s> {
         StepState {
             stage,
             memory: self.memory.state(),
-            guess: guess.to_vec(),
-            history: self.history.clone(),
-            course: self.extrapolation.clone(),
+            guess: Cow::Borrowed(guess),
+            history: Cow::Borrowed(&self.history),
+            course: self.extrapolation.as_ref().map(Cow::Borrowed),
             solution: self.solution,
             work: self.work,
         }
@@ -312,18 +314,18 @@ impl<'a, M: Hereditary> March<'a, M> {
 
     /// Goes back to between the halves of a step, where a march of the same engine and compliance stood. False, and a march
     /// that has not begun is as it was, where the state is one of others.
-    pub fn restore_step(&mut self, state: &StepState) -> bool {
+    pub fn restore_step(&mut self, state: StepState<'_>) -> bool {
         let nodes = self.pressure.len();
         let fits = state.course.is_some() == self.extrapolation.is_some()
             && state.course.iter().all(|course| course.fits(nodes))
             && [&state.guess, &state.history]
                 .iter()
                 .all(|f| f.len() == nodes)
-            && self.memory.restore(&state.memory);
+            && self.memory.restore(state.memory);
         if fits {
-            self.extrapolation.clone_from(&state.course);
-            self.history.copy_from_slice(&state.history);
-            self.pressure.copy_from_slice(&state.guess);
+            self.extrapolation = state.course.map(Cow::into_owned);
+            self.history = state.history.into_owned();
+            self.pressure = state.guess.into_owned();
             if let Some(last) = &state.solution {
                 self.engine.resume_from(last);
             }

@@ -1,5 +1,6 @@
 //! Memory variables of every node, carried over time steps by the weights of the rule.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use multiversion::multiversion;
@@ -141,20 +142,20 @@ impl Hereditary for Memory {
     }
 
     /// Memory variables, then what has flowed.
-    fn state(&self) -> PastState {
+    fn state(&self) -> PastState<'_> {
         PastState {
-            nodal: vec![self.fields.clone()],
-            steps: Vec::new(),
+            nodal: vec![Cow::Borrowed(&self.fields)],
+            steps: Cow::Borrowed(&[]),
         }
     }
 
-    fn restore(&mut self, state: &PastState) -> bool {
-        let [fields] = &state.nodal[..] else {
+    fn restore(&mut self, state: PastState<'_>) -> bool {
+        let Ok([fields]) = <[_; 1]>::try_from(state.nodal) else {
             return false;
         };
         let fits = state.steps.is_empty() && fields.len() == self.fields.len();
         if fits {
-            self.fields.copy_from_slice(fields);
+            self.fields = fields.into_owned();
         }
         fits
     }

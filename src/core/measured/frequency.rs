@@ -1,6 +1,7 @@
 //! The frequency of a record: the highest line of the spectrum, then least squares of one frequency with its harmonics in both
 //! signals at once, at the times of the samples as they are.
 
+use contact_dma_transforms::Precision as _;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
@@ -104,7 +105,7 @@ pub(super) fn power(values: &[f64]) -> Vec<f64> {
         *value *= scale * (0.5 + 0.5 * (std::f64::consts::PI * u(i)).cos());
     }
     flat.resize(n * LINES_A_FREQUENCY, 0.0);
-    let transform = contact_dma_transforms::real_forward(flat.len());
+    let transform = f64::real_forward(flat.len());
     let mut lines = transform.make_output_vec();
     match transform.process(&mut flat, &mut lines) {
         Ok(()) => lines.iter().map(|line| line.norm_sqr()).collect(),

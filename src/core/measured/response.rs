@@ -2,6 +2,7 @@
 //! is behind by a phase. Of a sinusoid that is a factor ([`ChannelResponse::at`]); of a record it is taken back by a Fourier transform
 //! ([`ChannelResponse::take_back`]).
 
+use contact_dma_transforms::Precision as _;
 use std::f64::consts::TAU;
 
 use num_complex::Complex;
@@ -142,7 +143,7 @@ impl ChannelResponse<'_> {
             .chain([0.0])
             .chain(mirrored)
             .collect();
-        let forward = contact_dma_transforms::real_forward(odd.len());
+        let forward = f64::real_forward(odd.len());
         let mut lines = forward.make_output_vec();
         forward.process(&mut odd, &mut lines).ok()?;
         let length = odd.len() as f64;
@@ -153,7 +154,7 @@ impl ChannelResponse<'_> {
         for end in [0, intervals] {
             lines[end].im = 0.0;
         }
-        let inverse = contact_dma_transforms::real_inverse(odd.len());
+        let inverse = f64::real_inverse(odd.len());
         inverse.process(&mut lines, &mut odd).ok()?;
         odd.truncate(signal.len());
         Some(odd)

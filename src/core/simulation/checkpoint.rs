@@ -36,7 +36,7 @@ pub struct HistoryState<'a> {
     /// The history at the resolutions before, at their ends.
     pub(super) finished: Cow<'a, [Trajectory]>,
     pub(super) trajectory: Cow<'a, Trajectory>,
-    pub(super) step: StepState,
+    pub(super) step: StepState<'a>,
 }
 
 impl HistoryState<'_> {
@@ -178,12 +178,12 @@ mod tests {
             step: StepState {
                 stage: 1,
                 memory: PastState {
-                    nodal: vec![vec![1.0, 2.0], Vec::new()],
-                    steps: Vec::new(),
+                    nodal: vec![vec![1.0, 2.0].into(), Cow::default()],
+                    steps: Cow::default(),
                 },
-                guess: vec![3.0],
-                history: vec![4.0],
-                course: Some(looking_back),
+                guess: vec![3.0].into(),
+                history: vec![4.0].into(),
+                course: Some(Cow::Owned(looking_back)),
                 solution: Some(Solution {
                     load_n: 1.0,
                     approach_m: 2.0,

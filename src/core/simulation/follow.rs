@@ -29,7 +29,7 @@ pub(super) enum MarchError {
     Engine(#[from] EngineError),
     /// The contact reached the edge, and goes on from here on a wider domain.
     #[error("the contact has outgrown its domain")]
-    Outgrown(Box<StepState>),
+    Outgrown(Box<StepState<'static>>),
 }
 
 /// A history as far as it was followed at one resolution.
@@ -75,7 +75,7 @@ impl Simulation {
     pub(super) fn follow(
         &self,
         level: &Level,
-        begun: Option<(Trajectory, StepState)>,
+        begun: Option<(Trajectory, StepState<'_>)>,
         run: &Run<'_>,
     ) -> (Trajectory, Result<(), MarchError>) {
         if self.plan.contact.is_attracted() {
@@ -100,7 +100,7 @@ impl Simulation {
     fn follow_on_domain(
         &self,
         level: &Level,
-        step: Option<StepState>,
+        step: Option<StepState<'_>>,
         trajectory: &mut Trajectory,
         run: &Run<'_>,
     ) -> Result<(), MarchError> {
@@ -127,12 +127,12 @@ impl Simulation {
         let ended = match &self.compliance {
             Compliance::Series(creep) => {
                 let march = March::new(engine.as_mut(), creep.clone(), rule);
-                following.run(march, step.as_ref(), trajectory)
+                following.run(march, step, trajectory)
             }
             Compliance::Samples(curve) => {
                 let memory = DirectMemory::with_room_for(curve.clone(), engine.nodes(), steps);
                 let march = March::with_memory(engine.as_mut(), memory, rule);
-                following.run(march, step.as_ref(), trajectory)
+                following.run(march, step, trajectory)
             }
         };
         match (ended, not_enlarged) {
@@ -160,7 +160,7 @@ impl Following<'_> {
     fn run<M: Hereditary>(
         &self,
         mut march: March<'_, M>,
-        state: Option<&StepState>,
+        state: Option<StepState<'_>>,
         trajectory: &mut Trajectory,
     ) -> Result<(), MarchError> {
         let profiles = self.simulation.plan.output.profiles_at_s.len();
@@ -169,8 +169,8 @@ impl Following<'_> {
         let wanted = [wanted.0, wanted.1];
         let state = state.filter(|_| self.fits(trajectory, wanted));
         let stage = state
-            .filter(|step| march.restore_step(step))
-            .map(|step| step.stage);
+            .map(|step| (step.stage, step))
+            .and_then(|(stage, step)| march.restore_step(step).then_some(stage));
         if stage.is_none() {
             *trajectory = Trajectory {
                 surfaces: wanted.map(|moments| vec![None; moments.len()]),
@@ -242,8 +242,14 @@ impl Following<'_> {
                 {
                     let record = self.surface_record(row, surface);
                     let places = moments.iter().zip(&mut trajectory.surfaces[kind]);
-                    for (_, place) in places.filter(|(moment, _)| **moment == index) {
+                    let mut places = places.filter(|(moment, _)| **moment == index);
+                    // Of the same moment asked for twice, a copy; else none is made of so much.
+                    let first = places.next();
+                    for (_, place) in places {
                         *place = Some(record.clone());
+                    }
+                    if let Some((_, place)) = first {
+                        *place = Some(record);
                     }
                 }
             }

@@ -216,15 +216,10 @@ impl Simulation {
         &self.plan
     }
 
-    /// Memory (bytes) that the history takes while it runs, a checkpoint included, which one that ends within seconds does not
-    /// write. Within 20 % of what was measured on 1024 x 1024 and 2048 x 2048 cells, for a contact that stays inside its domain.
+    /// Memory (bytes) that the history takes while it runs. Within 20 % of what was measured on 1024 x 1024 and 2048 x 2048 cells, for a contact that stays inside its domain.
     pub fn predicted_memory_bytes(&self) -> u64 {
         /// What the program takes whatever it computes.
         const PROGRAM_BYTES: u64 = 15_000_000;
-        /// Fields of a checkpoint besides the memory variables; and what a number of it takes, as it is and in the file being
-        /// written, as measured.
-        const KEPT_FIELDS: usize = 3;
-        const KEPT_BYTES: usize = 19;
         let variables = match &self.compliance {
             Compliance::Series(creep) => {
                 creep.branches().len() + usize::from(creep.viscosity_pa_s().is_some())
@@ -234,8 +229,10 @@ impl Simulation {
         };
         // Coarser levels take less, one after another.
         let engines = &self.levels[0].engines;
-        let kept = engines.nodes() * (variables + KEPT_FIELDS);
-        PROGRAM_BYTES + engines.predicted_memory_bytes(variables) + (kept * KEPT_BYTES) as u64
+        // Beside those of the march, the pressure that was foreseen; and pressure, displacement and gap of surfaces to be written.
+        let fields = self.plan.output.fields_at_s.len();
+        let kept = engines.nodes() + 3 * fields * engines.surface_cells();
+        PROGRAM_BYTES + engines.predicted_memory_bytes(variables) + (size_of::<f64>() * kept) as u64
     }
 
     /// The time steps.

@@ -10,10 +10,11 @@ pub mod influence;
 mod instant;
 pub mod layer;
 pub mod love;
+mod memory;
 pub mod periodic;
 mod polonsky_keer;
 mod solver;
 
-pub use convolution::predicted_memory_bytes;
 pub use instant::SolverSettings;
+pub use memory::CellField;
 pub use solver::HalfSpace;

@@ -227,8 +227,7 @@ impl Elastic for Period<'_> {
         rows: Range<usize>,
         scratch: &mut Scratches,
     ) -> Result<(), ConvolutionError> {
-        // Of the same shape as the operator, in whose work space there is room for it.
-        (self.operator).apply_inverse(gap, pressure, rows, &mut scratch.convolution)
+        (self.operator).apply_inverse(gap, pressure, rows, &mut scratch.preconditioner)
     }
 
     /// Without its mean, a displacement is as large as the distance between its extremes.

@@ -73,11 +73,12 @@ pub(in super::super) struct IterateState {
     pub(in super::super) reference_m: f64,
 }
 
-/// Work space of the two operators: apart, so that neither has to be made to fit again and again.
+/// Work space of the two operators: double precision for what must be exact, single for what only shows
+/// the way.
 #[derive(Debug, Clone, Default)]
 pub(in super::super) struct Scratches {
     pub(in super::super) convolution: Scratch,
-    pub(in super::super) preconditioner: Scratch,
+    pub(in super::super) preconditioner: Scratch<f32>,
 }
 
 /// Work counted, and whether to go on with it.

@@ -6,16 +6,16 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use contact_dma_transforms as transforms;
+use contact_dma_transforms::Precision;
 use num_complex::Complex;
 use realfft::{FftError, RealToComplex};
 use rustfft::Fft;
 
 use super::super::influence::Influence;
-use super::spectral::{Column, Row, ZERO};
+use super::spectral::{Column, Row, zero};
 
 /// Rows whose every bin is one frequency.
-pub(super) trait FrequencyPerBin: Row {
+pub(super) trait FrequencyPerBin<T: Precision>: Row<T> {
     /// Frequency of a bin as a real even function sees it, and how often it occurs in the sum of the inverse transform as
     /// this type takes it.
     fn frequency_and_weight(&self, bin: usize) -> (usize, f64);
@@ -23,9 +23,9 @@ pub(super) trait FrequencyPerBin: Row {
 
 /// A function of frequency and scaled spectrum in the order in which an [`EvenColumn`] uses it: for every bin of `row`, the
 /// frequencies `0..=column_length / 2` along the column, scaled so that the inverse transforms need no scaling of their own.
-pub(super) fn spectrum(
+pub(super) fn spectrum<T: Precision>(
     influence: &Influence,
-    row: &impl FrequencyPerBin,
+    row: &impl FrequencyPerBin<T>,
     column_length: usize,
     function: impl Fn((usize, usize), f64) -> f64,
 ) -> Result<Vec<f64>, FftError> {
@@ -58,7 +58,7 @@ impl Kernel {
         period_y: usize,
     ) -> Result<Self, FftError> {
         let (row_half, column_half) = (period_x / 2 + 1, period_y / 2 + 1);
-        let mut along_x = EvenTransform::new(transforms::real_forward(period_x));
+        let mut along_x = EvenTransform::new(f64::real_forward(period_x));
         let mut rows = vec![0.0; column_half * row_half];
         for (offset_y, spectrum) in rows.chunks_exact_mut(row_half).enumerate() {
             let coefficient = |offset_x| influence.coefficient_m(offset_x, offset_y);
@@ -67,7 +67,7 @@ impl Kernel {
         Ok(Self {
             rows,
             row_half,
-            along_y: EvenTransform::new(transforms::real_forward(period_y)),
+            along_y: EvenTransform::new(f64::real_forward(period_y)),
         })
     }
 
@@ -125,16 +125,16 @@ impl EvenTransform {
 }
 
 /// Plans for columns of one length.
-pub(super) struct EvenColumn {
+pub(super) struct EvenColumn<T = f64> {
     length: usize,
-    forward: Arc<dyn Fft<f64>>,
-    inverse: Arc<dyn Fft<f64>>,
+    forward: Arc<dyn Fft<T>>,
+    inverse: Arc<dyn Fft<T>>,
 }
 
-impl EvenColumn {
+impl<T: Precision> EvenColumn<T> {
     /// Plans for columns of this length, padding included.
     pub(super) fn new(length: usize) -> Self {
-        let (forward, inverse) = transforms::complex(length);
+        let (forward, inverse) = T::complex(length);
         Self {
             length,
             forward,
@@ -143,7 +143,7 @@ impl EvenColumn {
     }
 }
 
-impl Column for EvenColumn {
+impl<T: Precision> Column<T> for EvenColumn<T> {
     fn length(&self) -> usize {
         self.length
     }
@@ -159,15 +159,15 @@ impl Column for EvenColumn {
 
     fn multiply(
         &self,
-        column: &mut [Complex<f64>],
+        column: &mut [Complex<T>],
         loaded: &Range<usize>,
         _wanted: &Range<usize>,
-        kernel: &[f64],
-        work: &mut [Complex<f64>],
+        kernel: &[T],
+        work: &mut [Complex<T>],
     ) {
         let column = &mut column[..self.length];
-        column[..loaded.start].fill(ZERO);
-        column[loaded.end..].fill(ZERO);
+        column[..loaded.start].fill(zero());
+        column[loaded.end..].fill(zero());
         self.forward.process_with_scratch(column, work);
         multiply_by_even(column, kernel);
         self.inverse.process_with_scratch(column, work);
@@ -175,24 +175,24 @@ impl Column for EvenColumn {
 }
 
 /// Multiplies frequency `k` and its mirror image `length - k` by `even[k]`.
-fn multiply_by_even(column: &mut [Complex<f64>], even: &[f64]) {
+fn multiply_by_even<T: Precision>(column: &mut [Complex<T>], even: &[T]) {
     let (Some((zero, others)), Some((even_zero, even))) =
         (column.split_first_mut(), even.split_first())
     else {
         return;
     };
-    *zero *= even_zero;
+    *zero = *zero * even_zero;
     let pairs = others.len() / 2;
     let (lower, upper) = others.split_at_mut(pairs);
     let mirrored = upper.iter_mut().rev();
     for ((a, b), factor) in lower.iter_mut().zip(mirrored).zip(even) {
-        *a *= factor;
-        *b *= factor;
+        *a = *a * factor;
+        *b = *b * factor;
     }
     // An even length has one frequency that is its own mirror image; `upper` is then one longer than `lower`.
     if upper.len() > pairs
         && let (Some(middle), Some(factor)) = (upper.first_mut(), even.get(pairs))
     {
-        *middle *= factor;
+        *middle = *middle * factor;
     }
 }

@@ -16,40 +16,42 @@ use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::Arc;
 
-use contact_dma_transforms as transforms;
+use contact_dma_transforms::Precision;
 use num_complex::Complex;
 use realfft::{ComplexToReal, FftError, RealToComplex};
 use rustfft::Fft;
+use rustfft::num_traits::Zero;
 
 use super::super::influence::Influence;
 use super::even_column::Kernel;
-use super::spectral::{Column, Row, ZERO};
+use super::spectral::{Column, Row, zero};
 
 /// Plans for rows of one length. Immutable; buffers are the caller's.
-pub(super) struct MirroredRow {
+pub(super) struct MirroredRow<T = f64> {
     /// Half the period, `m`; even.
     half: usize,
-    forward: Arc<dyn RealToComplex<f64>>,
-    inverse: Arc<dyn ComplexToReal<f64>>,
+    forward: Arc<dyn RealToComplex<T>>,
+    inverse: Arc<dyn ComplexToReal<T>>,
     /// `exp(-i pi k / 2m)` for `k < m/2`.
-    twist: Vec<Complex<f64>>,
+    twist: Vec<Complex<T>>,
 }
 
 /// `exp(-i pi k / 2m)` for `k < m/2`.
-fn twist(half: usize) -> Vec<Complex<f64>> {
+fn twist<T: Precision>(half: usize) -> Vec<Complex<T>> {
     let angle = -0.5 * PI / half as f64;
     (0..half / 2)
         .map(|k| Complex::cis(angle * k as f64))
+        .map(|w: Complex<f64>| Complex::new(T::of(w.re), T::of(w.im)))
         .collect()
 }
 
-impl MirroredRow {
+impl<T: Precision> MirroredRow<T> {
     /// Plans for rows that repeat after `2 half` values, `half` even.
     pub(super) fn new(half: usize) -> Self {
         Self {
             half,
-            forward: transforms::real_forward(half),
-            inverse: transforms::real_inverse(half),
+            forward: T::real_forward(half),
+            inverse: T::real_inverse(half),
             twist: twist(half),
         }
     }
@@ -63,7 +65,7 @@ impl MirroredRow {
     }
 }
 
-impl Row for MirroredRow {
+impl<T: Precision> Row<T> for MirroredRow<T> {
     fn period(&self) -> usize {
         2 * self.half
     }
@@ -85,11 +87,11 @@ impl Row for MirroredRow {
     fn forward(
         &self,
         row: &[f64],
-        bins: &mut [Complex<f64>],
-        buffer: &mut [f64],
-        work: &mut [Complex<f64>],
+        bins: &mut [Complex<T>],
+        buffer: &mut [T],
+        work: &mut [Complex<T>],
     ) -> Result<(), FftError> {
-        makhoul_permute(row, buffer);
+        makhoul_permute(row, buffer, |value| T::of(value));
         let (spectrum, work) = work.split_at_mut(self.half / 2 + 1);
         let work = &mut work[..self.forward.get_scratch_len()];
         self.forward.process_with_scratch(buffer, spectrum, work)?;
@@ -103,10 +105,10 @@ impl Row for MirroredRow {
 
     fn inverse(
         &self,
-        bins: &mut [Complex<f64>],
+        bins: &mut [Complex<T>],
         row: &mut [f64],
-        buffer: &mut [f64],
-        work: &mut [Complex<f64>],
+        buffer: &mut [T],
+        work: &mut [Complex<T>],
     ) -> Result<(), FftError> {
         let (spectrum, work) = work.split_at_mut(self.half / 2 + 1);
         for ((value, bin), w) in spectrum.iter_mut().zip(bins.iter()).zip(&self.twist) {
@@ -116,24 +118,24 @@ impl Row for MirroredRow {
         spectrum[self.half / 2] = bins[0].im.into();
         let work = &mut work[..self.inverse.get_scratch_len()];
         self.inverse.process_with_scratch(spectrum, buffer, work)?;
-        makhoul_unpermute(buffer, row);
+        makhoul_unpermute(buffer, row, T::to_double);
         Ok(())
     }
 }
 
 /// Plans for columns of one length.
-pub(super) struct MirroredColumn {
+pub(super) struct MirroredColumn<T = f64> {
     /// Half the period, `m`; even.
     half: usize,
-    forward: Arc<dyn Fft<f64>>,
-    inverse: Arc<dyn Fft<f64>>,
-    twist: Vec<Complex<f64>>,
+    forward: Arc<dyn Fft<T>>,
+    inverse: Arc<dyn Fft<T>>,
+    twist: Vec<Complex<T>>,
 }
 
-impl MirroredColumn {
+impl<T: Precision> MirroredColumn<T> {
     /// Plans for columns that repeat after `2 half` values, `half` even.
     pub(super) fn new(half: usize) -> Self {
-        let (forward, inverse) = transforms::complex(half);
+        let (forward, inverse) = T::complex(half);
         Self {
             half,
             forward,
@@ -146,10 +148,10 @@ impl MirroredColumn {
 /// A function of frequency and spectrum of the influence coefficients in the order in which it is used: for every bin of a row, four
 /// numbers per pair of frequencies `l` and `m - l` along the column, two for either column of the pair; scaled so that the
 /// inverse transforms need no scaling of their own.
-pub(super) fn spectrum(
+pub(super) fn spectrum<T: Precision>(
     influence: &Influence,
-    row: &MirroredRow,
-    column: &MirroredColumn,
+    row: &MirroredRow<T>,
+    column: &MirroredColumn<T>,
     function: impl Fn((usize, usize), f64) -> f64,
 ) -> Result<Vec<f64>, FftError> {
     let (half_x, half_y) = (row.period() / 2, column.half);
@@ -178,7 +180,7 @@ pub(super) fn spectrum(
     Ok(spectrum)
 }
 
-impl Column for MirroredColumn {
+impl<T: Precision> Column<T> for MirroredColumn<T> {
     fn length(&self) -> usize {
         self.half
     }
@@ -195,59 +197,59 @@ impl Column for MirroredColumn {
 
     fn multiply(
         &self,
-        column: &mut [Complex<f64>],
+        column: &mut [Complex<T>],
         loaded: &Range<usize>,
         wanted: &Range<usize>,
-        kernel: &[f64],
-        work: &mut [Complex<f64>],
+        kernel: &[T],
+        work: &mut [Complex<T>],
     ) {
         let (values, work) = work.split_at_mut(self.half);
-        column[..loaded.start].fill(ZERO);
-        makhoul_permute(&column[..loaded.end], values);
+        column[..loaded.start].fill(zero());
+        makhoul_permute(&column[..loaded.end], values, |value| value);
         self.forward.process_with_scratch(values, work);
         self.multiply_pairs(values, kernel);
         self.inverse.process_with_scratch(values, work);
-        makhoul_unpermute(values, &mut column[..wanted.end]);
+        makhoul_unpermute(values, &mut column[..wanted.end], |value| value);
     }
 }
 
 /// Even values in ascending, odd ones in descending order, zeros between.
-fn makhoul_permute<T: Copy + Default>(line: &[T], values: &mut [T]) {
+fn makhoul_permute<F: Copy, T: Copy + Zero>(line: &[F], values: &mut [T], of: impl Fn(F) -> T) {
     let (even, odd) = (line.len().div_ceil(2), line.len() / 2);
     let beyond = values.len() - odd;
-    values[even..beyond].fill(T::default());
+    values[even..beyond].fill(T::zero());
     let pairs = line.chunks_exact(2);
     if let [last] = pairs.remainder() {
-        values[even - 1] = *last;
+        values[even - 1] = of(*last);
     }
     let (ascending, descending) = values.split_at_mut(beyond);
     let places = ascending.iter_mut().zip(descending.iter_mut().rev());
     for ((a, b), pair) in places.zip(pairs) {
-        (*a, *b) = (pair[0], pair[1]);
+        (*a, *b) = (of(pair[0]), of(pair[1]));
     }
 }
 
 /// The reverse of [`makhoul_permute`].
-fn makhoul_unpermute<T: Copy>(values: &[T], line: &mut [T]) {
+fn makhoul_unpermute<F: Copy, T>(values: &[F], line: &mut [T], of: impl Fn(F) -> T) {
     let even = line.len().div_ceil(2);
     let (ascending, descending) = values.split_at(even);
     let places = ascending.iter().zip(descending.iter().rev());
     let mut pairs = line.chunks_exact_mut(2);
     for (pair, (a, b)) in pairs.by_ref().zip(places) {
-        (pair[0], pair[1]) = (*a, *b);
+        (pair[0], pair[1]) = (of(*a), of(*b));
     }
     if let ([last], Some(a)) = (pairs.into_remainder(), ascending.last()) {
-        *last = *a;
+        *last = of(*a);
     }
 }
 
-impl MirroredColumn {
+impl<T: Precision> MirroredColumn<T> {
     /// From the transform of the ordered values to that of their product.
     ///
     /// With A and B the transforms of real and imaginary part, `V(l) = A + i B` and `V(m-l) = conj A + i conj B`; real and
     /// imaginary part of `exp(-i pi l / 2m) A` are the cosine transforms of the first column at `l` and, with the opposite sign,
     /// at `m - l`.
-    fn multiply_pairs(&self, values: &mut [Complex<f64>], kernel: &[f64]) {
+    fn multiply_pairs(&self, values: &mut [Complex<T>], kernel: &[T]) {
         let (own, kernel) = kernel.split_at(4);
         let (lower, upper) = values.split_at_mut(self.half / 2);
         let (middle, upper) = upper.split_at_mut(1);

@@ -14,7 +14,7 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use contact_dma_transforms as transforms;
+use contact_dma_transforms::Precision;
 use num_complex::Complex;
 use realfft::FftError;
 use rustfft::Fft;
@@ -40,7 +40,7 @@ impl PaddedRow {
     /// Plans for rows of `cells` values, padded to at least twice that.
     pub(super) fn new(cells: usize) -> Self {
         let quarter = fast_row_half(cells);
-        let (odd_forward, odd_inverse) = transforms::complex(quarter);
+        let (odd_forward, odd_inverse) = f64::complex(quarter);
         let angle = -PI / (2 * quarter) as f64;
         Self {
             quarter,
@@ -54,7 +54,7 @@ impl PaddedRow {
     }
 }
 
-impl Row for PaddedRow {
+impl Row<f64> for PaddedRow {
     /// Length of the padded row, `2m`.
     fn period(&self) -> usize {
         4 * self.quarter
@@ -122,7 +122,7 @@ impl Row for PaddedRow {
     }
 }
 
-impl FrequencyPerBin for PaddedRow {
+impl FrequencyPerBin<f64> for PaddedRow {
     /// Frequency of a bin as a real even function sees it, that is between 0 and `m`, and how often it occurs in the sum
     /// of the inverse transform as this type takes it.
     fn frequency_and_weight(&self, bin: usize) -> (usize, f64) {

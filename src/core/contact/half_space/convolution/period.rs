@@ -5,6 +5,8 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, Weak};
 
+use contact_dma_transforms::Precision;
+
 use super::even_column::EvenColumn;
 use super::periodic_row::PeriodicRow;
 use super::spectral::SpectralProduct;
@@ -16,7 +18,7 @@ pub struct PeriodicOperator {
     grid: Grid,
     product: SpectralProduct,
     /// |q|/2, and for the mean as for the longest wave.
-    inverse: SpectralProduct,
+    inverse: SpectralProduct<f32>,
 }
 
 /// Those in use.
@@ -42,17 +44,17 @@ impl PeriodicOperator {
         let longest_per_m = wave_number(1, 0).min(wave_number(0, 1));
         // Transforms there and back multiply by the number of cells.
         let cells = grid.cells() as f64;
-        let product = |at: &dyn Fn(f64) -> f64| {
+        let spectrum = |at: &dyn Fn(f64) -> f64| {
             let waves = (0..=nx / 2).flat_map(|kx| (0..=ny / 2).map(move |ky| (kx, ky)));
-            let spectrum = waves.map(|(kx, ky)| at(wave_number(kx, ky)) / cells);
-            let (row, column) = (PeriodicRow::of_period(nx), EvenColumn::new(ny));
-            SpectralProduct::new(&grid, row, column, spectrum.collect())
+            waves
+                .map(|(kx, ky)| at(wave_number(kx, ky)) / cells)
+                .collect()
         };
         Self {
             grid,
             // The mean is left out.
-            product: product(&|q| if q > 0.0 { 2.0 / q } else { 0.0 }),
-            inverse: product(&|q| 0.5 * q.max(longest_per_m)),
+            product: product(&grid, spectrum(&|q| if q > 0.0 { 2.0 / q } else { 0.0 })),
+            inverse: product(&grid, spectrum(&|q| 0.5 * q.max(longest_per_m))),
         }
     }
 
@@ -78,8 +80,14 @@ impl PeriodicOperator {
         displacement: &[f64],
         pressure: &mut [f64],
         rows: Range<usize>,
-        scratch: &mut Scratch,
+        scratch: &mut Scratch<f32>,
     ) -> Result<(), ConvolutionError> {
         self.inverse.apply(displacement, pressure, rows, scratch)
     }
+}
+
+/// The product with this spectrum on the grid of a period.
+fn product<T: Precision>(grid: &Grid, spectrum: Vec<f64>) -> SpectralProduct<T> {
+    let row = PeriodicRow::of_period(grid.cells_x());
+    SpectralProduct::new(grid, row, EvenColumn::new(grid.cells_y()), spectrum)
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use contact_dma_transforms as transforms;
+use contact_dma_transforms::Precision;
 use num_complex::Complex;
 use realfft::{ComplexToReal, FftError, RealToComplex};
 
@@ -11,13 +11,13 @@ use super::length::fast_row_half;
 use super::spectral::Row;
 
 /// Plans for rows of one length. Immutable; buffers are the caller's.
-pub(super) struct PeriodicRow {
+pub(super) struct PeriodicRow<T = f64> {
     period: usize,
-    forward: Arc<dyn RealToComplex<f64>>,
-    inverse: Arc<dyn ComplexToReal<f64>>,
+    forward: Arc<dyn RealToComplex<T>>,
+    inverse: Arc<dyn ComplexToReal<T>>,
 }
 
-impl PeriodicRow {
+impl<T: Precision> PeriodicRow<T> {
     /// Plans for rows of `cells` values, and what it takes for a period of which transforms run fast.
     pub(super) fn new(cells: usize) -> Self {
         Self::of_period(2 * fast_row_half(cells))
@@ -27,17 +27,17 @@ impl PeriodicRow {
     pub(super) fn of_period(period: usize) -> Self {
         Self {
             period,
-            forward: transforms::real_forward(period),
-            inverse: transforms::real_inverse(period),
+            forward: T::real_forward(period),
+            inverse: T::real_inverse(period),
         }
     }
 
     /// Transforms a period, which it overwrites, into its frequencies.
     pub(super) fn bins_of(
         &self,
-        period: &mut [f64],
-        bins: &mut [Complex<f64>],
-        work: &mut [Complex<f64>],
+        period: &mut [T],
+        bins: &mut [Complex<T>],
+        work: &mut [Complex<T>],
     ) -> Result<(), FftError> {
         let work = &mut work[..self.forward.get_scratch_len()];
         self.forward.process_with_scratch(period, bins, work)
@@ -46,14 +46,14 @@ impl PeriodicRow {
     /// Transforms frequencies, which it overwrites, back into a period.
     pub(super) fn period_of(
         &self,
-        bins: &mut [Complex<f64>],
-        period: &mut [f64],
-        work: &mut [Complex<f64>],
+        bins: &mut [Complex<T>],
+        period: &mut [T],
+        work: &mut [Complex<T>],
     ) -> Result<(), FftError> {
         // Real by symmetry; the transform refuses what rounding leaves there.
-        bins[0].im = 0.0;
+        bins[0].im = T::zero();
         if self.period.is_multiple_of(2) {
-            bins[self.period / 2].im = 0.0;
+            bins[self.period / 2].im = T::zero();
         }
         let work = &mut work[..self.inverse.get_scratch_len()];
         self.inverse.process_with_scratch(bins, period, work)
@@ -61,13 +61,15 @@ impl PeriodicRow {
 }
 
 /// A row, and zeros beyond it.
-pub(super) fn fill_up(row: &[f64], buffer: &mut [f64]) {
+pub(super) fn fill_up<T: Precision>(row: &[f64], buffer: &mut [T]) {
     let (given, beyond) = buffer.split_at_mut(row.len());
-    given.copy_from_slice(row);
-    beyond.fill(0.0);
+    for (to, value) in given.iter_mut().zip(row) {
+        *to = T::of(*value);
+    }
+    beyond.fill(T::zero());
 }
 
-impl Row for PeriodicRow {
+impl<T: Precision> Row<T> for PeriodicRow<T> {
     fn period(&self) -> usize {
         self.period
     }
@@ -88,9 +90,9 @@ impl Row for PeriodicRow {
     fn forward(
         &self,
         row: &[f64],
-        bins: &mut [Complex<f64>],
-        buffer: &mut [f64],
-        work: &mut [Complex<f64>],
+        bins: &mut [Complex<T>],
+        buffer: &mut [T],
+        work: &mut [Complex<T>],
     ) -> Result<(), FftError> {
         fill_up(row, buffer);
         self.bins_of(buffer, bins, work)
@@ -98,18 +100,20 @@ impl Row for PeriodicRow {
 
     fn inverse(
         &self,
-        bins: &mut [Complex<f64>],
+        bins: &mut [Complex<T>],
         row: &mut [f64],
-        buffer: &mut [f64],
-        work: &mut [Complex<f64>],
+        buffer: &mut [T],
+        work: &mut [Complex<T>],
     ) -> Result<(), FftError> {
         self.period_of(bins, buffer, work)?;
-        row.copy_from_slice(&buffer[..row.len()]);
+        for (value, from) in row.iter_mut().zip(buffer.iter()) {
+            *value = from.to_double();
+        }
         Ok(())
     }
 }
 
-impl FrequencyPerBin for PeriodicRow {
+impl<T: Precision> FrequencyPerBin<T> for PeriodicRow<T> {
     fn frequency_and_weight(&self, bin: usize) -> (usize, f64) {
         (bin, 1.0)
     }

@@ -20,7 +20,7 @@ use crate::contact::half_space::layer::Layer;
 /// A symmetric positive product that nearly inverts the half-space operator on one window, but for a factor: conjugate gradients take
 /// the same steps whatever that is.
 pub struct Preconditioner {
-    product: SpectralProduct,
+    product: SpectralProduct<f32>,
 }
 
 impl Preconditioner {
@@ -59,7 +59,7 @@ impl Preconditioner {
         residual: &[f64],
         direction: &mut [f64],
         wanted: Range<usize>,
-        scratch: &mut Scratch,
+        scratch: &mut Scratch<f32>,
     ) -> Result<(), ConvolutionError> {
         self.product.apply(residual, direction, wanted, scratch)
     }
@@ -140,7 +140,7 @@ mod tests {
         let preconditioner = Preconditioner::on(&grid, None).unwrap();
         let mut back = vec![0.0; grid.cells()];
         preconditioner
-            .apply(&displacement, &mut back, 0..96, &mut scratch)
+            .apply(&displacement, &mut back, 0..96, &mut Scratch::default())
             .unwrap();
         for iy in 40..56 {
             let cell = iy * 96 + 48;

@@ -9,6 +9,7 @@
 
 use std::ops::Range;
 
+use contact_dma_transforms::Precision;
 use num_complex::Complex;
 use realfft::FftError;
 
@@ -17,7 +18,10 @@ use super::ConvolutionError;
 use super::length::conflict_free_stride;
 use super::shared::{self, Panels, in_parts};
 
-pub(super) const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
+/// Nothing, as a complex number.
+pub(super) fn zero<T: Precision>() -> Complex<T> {
+    Complex::new(T::zero(), T::zero())
+}
 
 /// Side of the tiles in which rows are turned into columns: four complex numbers fill a cache line.
 const TILE: usize = 4;
@@ -25,7 +29,7 @@ const TILE: usize = 4;
 const BLOCK_COLUMNS: usize = TILE;
 
 /// How a row is transformed. Plans are immutable; buffers are the caller's.
-pub(super) trait Row: Send + Sync {
+pub(super) trait Row<T>: Send + Sync {
     /// Length of the row on which the transform acts, that is of the period.
     fn period(&self) -> usize;
 
@@ -42,23 +46,23 @@ pub(super) trait Row: Send + Sync {
     fn forward(
         &self,
         row: &[f64],
-        bins: &mut [Complex<f64>],
-        buffer: &mut [f64],
-        work: &mut [Complex<f64>],
+        bins: &mut [Complex<T>],
+        buffer: &mut [T],
+        work: &mut [Complex<T>],
     ) -> Result<(), FftError>;
 
     /// Transforms `bins`, which it overwrites, back into `row`, not scaled.
     fn inverse(
         &self,
-        bins: &mut [Complex<f64>],
+        bins: &mut [Complex<T>],
         row: &mut [f64],
-        buffer: &mut [f64],
-        work: &mut [Complex<f64>],
+        buffer: &mut [T],
+        work: &mut [Complex<T>],
     ) -> Result<(), FftError>;
 }
 
 /// How a column of bins is multiplied by its part of the spectrum. Plans are immutable; buffers are the caller's.
-pub(super) trait Column: Send + Sync {
+pub(super) trait Column<T>: Send + Sync {
     /// Length on which the transform acts.
     fn length(&self) -> usize;
 
@@ -72,11 +76,11 @@ pub(super) trait Column: Send + Sync {
     /// holds elsewhere is to be taken for zero.
     fn multiply(
         &self,
-        column: &mut [Complex<f64>],
+        column: &mut [Complex<T>],
         loaded: &Range<usize>,
         wanted: &Range<usize>,
-        kernel: &[f64],
-        work: &mut [Complex<f64>],
+        kernel: &[T],
+        work: &mut [Complex<T>],
     );
 }
 
@@ -129,27 +133,27 @@ impl Shape {
 
 /// Work space of one thread that asks and those of its pool that help it, empty until a product makes it fit its grid.
 #[derive(Clone, Default)]
-pub struct Scratch {
+pub struct Scratch<T = f64> {
     shape: Shape,
     /// The transformed rows: panel by panel of columns, row by row in each.
-    spectra: Vec<Complex<f64>>,
+    spectra: Vec<Complex<T>>,
     /// One for every thread that may take part.
-    lanes: Vec<Lane>,
+    lanes: Vec<Lane<T>>,
 }
 
 /// Work space of one thread.
 #[derive(Clone, Default)]
-struct Lane {
+struct Lane<T> {
     /// The columns being transformed, column by column.
-    block: Vec<Complex<f64>>,
+    block: Vec<Complex<T>>,
     /// One row, and its transform.
-    real: Vec<f64>,
-    bins: Vec<Complex<f64>>,
+    real: Vec<T>,
+    bins: Vec<Complex<T>>,
     /// What the transforms themselves ask for.
-    work: Vec<Complex<f64>>,
+    work: Vec<Complex<T>>,
 }
 
-impl std::fmt::Debug for Scratch {
+impl<T> std::fmt::Debug for Scratch<T> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Scratch")
             .field("shape", &self.shape)
@@ -178,27 +182,27 @@ impl Scratch {
 }
 
 /// A product ready to be applied: plans and spectrum.
-pub(super) struct SpectralProduct {
+pub(super) struct SpectralProduct<T = f64> {
     shape: Shape,
-    row: Box<dyn Row>,
-    column: Box<dyn Column>,
+    row: Box<dyn Row<T>>,
+    column: Box<dyn Column<T>>,
     /// For every bin of a row, what its column is multiplied by.
-    spectrum: Vec<f64>,
+    spectrum: Vec<T>,
 }
 
-impl SpectralProduct {
+impl<T: Precision> SpectralProduct<T> {
     /// The product with this spectrum on this grid.
     pub(super) fn new(
         grid: &Grid,
-        row: impl Row + 'static,
-        column: impl Column + 'static,
+        row: impl Row<T> + 'static,
+        column: impl Column<T> + 'static,
         spectrum: Vec<f64>,
     ) -> Self {
         Self {
             shape: Shape::new(grid, row.bins(), column.length()),
             row: Box::new(row),
             column: Box::new(column),
-            spectrum,
+            spectrum: spectrum.into_iter().map(T::of).collect(),
         }
     }
 
@@ -208,12 +212,12 @@ impl SpectralProduct {
     }
 
     #[cfg(test)]
-    pub(super) fn spectrum(&self) -> &[f64] {
+    pub(super) fn spectrum(&self) -> &[T] {
         &self.spectrum
     }
 
     /// Makes work space of any shape fit, for the threads there are. Allocates only what it never held before.
-    pub(super) fn fit(&self, scratch: &mut Scratch) {
+    pub(super) fn fit(&self, scratch: &mut Scratch<T>) {
         let threads = shared::threads(self.shape.cells());
         if scratch.shape == self.shape && scratch.lanes.len() == threads {
             return;
@@ -221,14 +225,14 @@ impl SpectralProduct {
         let shape = self.shape;
         scratch.shape = shape;
         let panels = shape.columns.div_ceil(shape.panel_columns);
-        resize(&mut scratch.spectra, panels * shape.panel(), ZERO);
+        resize(&mut scratch.spectra, panels * shape.panel(), zero());
         scratch.lanes.resize_with(threads, Lane::default);
         let work = self.row.work_length().max(self.column.work_length());
         for lane in &mut scratch.lanes {
-            resize(&mut lane.block, BLOCK_COLUMNS * shape.column_stride, ZERO);
-            resize(&mut lane.real, self.row.buffer_length(), 0.0);
-            resize(&mut lane.bins, shape.columns, ZERO);
-            resize(&mut lane.work, work, ZERO);
+            resize(&mut lane.block, BLOCK_COLUMNS * shape.column_stride, zero());
+            resize(&mut lane.real, self.row.buffer_length(), T::zero());
+            resize(&mut lane.bins, shape.columns, zero());
+            resize(&mut lane.work, work, zero());
         }
     }
 
@@ -239,7 +243,7 @@ impl SpectralProduct {
         field: &[f64],
         image: &mut [f64],
         wanted: Range<usize>,
-        scratch: &mut Scratch,
+        scratch: &mut Scratch<T>,
     ) -> Result<(), ConvolutionError> {
         let shape = &self.shape;
         let expected = shape.cells();
@@ -269,8 +273,8 @@ impl SpectralProduct {
     fn transform_rows(
         &self,
         field: &[f64],
-        panels: Panels<'_, Complex<f64>>,
-        lanes: &mut [Lane],
+        panels: Panels<'_, Complex<T>>,
+        lanes: &mut [Lane<T>],
     ) -> Result<(), FftError> {
         let shape = &self.shape;
         let rows = field.len() / shape.cells_x;
@@ -300,10 +304,10 @@ impl SpectralProduct {
     /// Multiplies the two-dimensional spectrum, panel by panel of columns.
     fn multiply_panels(
         &self,
-        spectra: &mut [Complex<f64>],
+        spectra: &mut [Complex<T>],
         loaded: &Range<usize>,
         wanted: &Range<usize>,
-        lanes: &mut [Lane],
+        lanes: &mut [Lane<T>],
     ) -> Result<(), FftError> {
         let panel = self.shape.panel();
         let panels = spectra.len() / panel.max(1);
@@ -328,10 +332,10 @@ impl SpectralProduct {
     fn multiply_columns(
         &self,
         index: usize,
-        panel: &mut [Complex<f64>],
+        panel: &mut [Complex<T>],
         loaded: &Range<usize>,
         wanted: &Range<usize>,
-        lane: &mut Lane,
+        lane: &mut Lane<T>,
     ) {
         let shape = &self.shape;
         let kernel_length = self.spectrum.len() / shape.columns;
@@ -366,10 +370,10 @@ impl SpectralProduct {
     /// Transforms the rows from `first` on back.
     fn recover_rows(
         &self,
-        spectra: &[Complex<f64>],
+        spectra: &[Complex<T>],
         first: usize,
         image: &mut [f64],
-        lanes: &mut [Lane],
+        lanes: &mut [Lane<T>],
     ) -> Result<(), FftError> {
         let shape = &self.shape;
         let rows = image.len() / shape.cells_x;
@@ -397,7 +401,7 @@ impl SpectralProduct {
 }
 
 /// Exactly `length` values, of any content.
-fn resize<T: Copy>(values: &mut Vec<T>, length: usize, filler: T) {
+fn resize<V: Copy>(values: &mut Vec<V>, length: usize, filler: V) {
     if values.capacity() < length {
         values.clear();
         values.reserve_exact(length);
@@ -416,15 +420,15 @@ fn loaded_rows(field: &[f64], cells_x: usize) -> Option<Range<usize>> {
 /// Copies the tile at `from[at]`, whose lines lie `stride` apart, transposed to `to[to_at]`. Whole tiles, because writing
 /// full cache lines is what keeps the transposition cheap.
 #[inline(always)]
-fn transpose_tile(
-    from: &[Complex<f64>],
+fn transpose_tile<T: Precision>(
+    from: &[Complex<T>],
     at: usize,
     stride: usize,
-    to: &mut [Complex<f64>],
+    to: &mut [Complex<T>],
     to_at: usize,
     to_stride: usize,
 ) {
-    let mut tile = [[ZERO; TILE]; TILE];
+    let mut tile = [[zero(); TILE]; TILE];
     for (line, values) in tile.iter_mut().enumerate() {
         // Of known length: never a call of a copying function.
         if let Some(from) = from[at + line * stride..].first_chunk() {
