@@ -142,21 +142,3 @@ fn a_sweep_that_cannot_take_samples_directly_shows_the_fit_and_takes_that() {
     shown.says(&["Misfit relative to the data"]);
     place.done("sweep sweep.toml --set material.table.evaluation=fit");
 }
-
-#[test]
-fn a_history_for_which_no_machine_has_room_is_refused_before_it_begins() {
-    let place = place();
-    // Every pressure of some 360 000 steps on a million cells: terabytes.
-    let run = format!(
-        "simulate scenario.toml --out large --set 'time.step=1e-3 s' --set solver.engine=half-space --set solver.cells=1024 {DIRECT}"
-    );
-    let refused = place.refused(&run);
-    for part in [
-        "a case takes about",
-        "of memory, and",
-        "take fewer cells (solver.cells)",
-    ] {
-        assert!(refused.contains(part), "{refused}");
-    }
-    assert!(!place.path("large").exists());
-}

@@ -476,3 +476,27 @@ fn a_dry_run_tells_steps_and_memory_and_writes_nothing() {
     ]);
     assert!(!place.has("out"));
 }
+
+#[test]
+fn a_history_for_which_no_machine_has_room_is_refused_before_it_begins() {
+    // Four terabytes of fields.
+    let times: Vec<String> = (0..10_000).map(|k| format!("\"{k} ms\"")).collect();
+    let text = format!(
+        "{ZENER}{}\n[solver]\nengine = \"half-space\"\ncells = 4096\n[output]\nfields_at = [{}]\n",
+        drive(
+            "load",
+            "{ kind = \"step\", to = \"1 N\", duration = \"10 s\" }"
+        ),
+        times.join(", ")
+    );
+    let place = Place::with("large.toml", &text);
+    let refused = place.refused("simulate large.toml --out large");
+    for part in [
+        "a case takes about",
+        "of memory, and",
+        "take fewer cells (solver.cells)",
+    ] {
+        assert!(refused.contains(part), "{refused}");
+    }
+    assert!(!place.path("large").exists());
+}
