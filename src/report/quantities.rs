@@ -527,8 +527,11 @@ pub fn cycles(outcome: &SimulationOutcome) -> Vec<u8> {
 }
 
 /// A table of these columns, errors beside their values.
-pub(super) fn table<R>(columns: &'static [Column<R>], rows: &[R]) -> Vec<u8> {
-    named(&with_errors(columns.iter(), 0), rows)
+pub(super) fn table<R: 'static>(
+    columns: impl IntoIterator<Item = &'static Column<R>>,
+    rows: &[R],
+) -> Vec<u8> {
+    named(&with_errors(columns.into_iter(), 0), rows)
 }
 
 /// The rows of these columns.

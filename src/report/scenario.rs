@@ -75,6 +75,7 @@ pub fn lines(
     let (profiles, not_drawn) = figure::profiles::figure(profiles, units);
     figures.extend(profiles);
     left_out.extend(not_drawn);
+    figures.extend(figure::distributions::figures(&outcome.fields, units));
     (figures, left_out)
 }
 

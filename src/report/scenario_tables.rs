@@ -10,6 +10,7 @@ use super::quantities::{self, Column, PlaceIn};
 use super::table::Cell;
 use super::vti;
 use crate::contact::half_space::grid::Grid;
+use crate::contact::statistics::ContactStatistics;
 use crate::contact::surface::Surface;
 use crate::simulation::body_material::BodyMaterial;
 use crate::simulation::outside_model;
@@ -79,16 +80,26 @@ pub fn write(
     )?;
     if !profiles.is_empty() {
         let surfaces = profiles.iter().map(|profile| (profile.row, profile.grid));
-        store.write(Place::Case(OfCase::Profiles, INDEX_FILE), &index(surfaces))?;
+        let rows: Vec<Indexed> = surfaces.enumerate().map(listed).collect();
+        let index = quantities::table(INDEX, &rows);
+        store.write(Place::Case(OfCase::Profiles, INDEX_FILE), &index)?;
         for (k, profile) in profiles.iter().enumerate() {
             let place = Place::Case(OfCase::Profiles, &profile_file(k));
             store.write(place, &points(profile))?;
         }
     }
     if !outcome.fields.is_empty() {
-        let surfaces = outcome.fields.iter();
-        let surfaces = surfaces.map(|record| (record.row, profile_lines::grid(record)));
-        store.write(Place::Case(OfCase::Fields, INDEX_FILE), &index(surfaces))?;
+        let rows = outcome
+            .fields
+            .iter()
+            .enumerate()
+            .map(|(k, record)| Indexed {
+                contact: statistics(plan, record),
+                ..listed((k, (record.row, profile_lines::grid(record))))
+            });
+        let rows: Vec<Indexed> = rows.collect();
+        let index = quantities::table(INDEX.iter().chain(CONTACT), &rows);
+        store.write(Place::Case(OfCase::Fields, INDEX_FILE), &index)?;
         for (k, record) in outcome.fields.iter().enumerate() {
             write_fields(store, k, record)?;
         }
@@ -104,6 +115,8 @@ pub(super) struct Indexed {
     /// Cells along x and y and their sides (m), of a surface on a grid.
     pub(super) cells: [Option<usize>; 2],
     pub(super) spacing_m: [Option<f64>; 2],
+    /// Of a field, not read back.
+    contact: Option<ContactStatistics>,
 }
 
 type OfIndex = Column<Indexed>;
@@ -122,15 +135,42 @@ pub(super) static INDEX: &[OfIndex] = &[
     OfIndex::new("spacing_y_m", |r| r.spacing_m[1].into(), "side along y").read_into(|r| Optional(&mut r.spacing_m[1])),
 ];
 
-fn index(surfaces: impl Iterator<Item = (HistoryRow, Option<Grid>)>) -> Vec<u8> {
-    let row = |(index, (row, grid)): (usize, (HistoryRow, Option<Grid>))| Indexed {
+/// Of fields, what the contact is like as a whole.
+#[rustfmt::skip]
+pub(super) static CONTACT: &[OfIndex] = &[
+    OfIndex::new("contact_fraction", |r| r.contact.map(|c| c.area_fraction).into(), "cells in contact over all cells"),
+    OfIndex::new("contact_patches", |r| r.contact.map(|c| c.patches).into(), "patches of which no two have cells side by side"),
+    OfIndex::new("largest_patch_m2", |r| r.contact.and_then(|c| c.largest_patch_m2).into(), "area of the largest patch"),
+    OfIndex::new("mean_pressure_pa", |r| r.contact.and_then(|c| c.mean_pressure_pa).into(), "pressure, mean over the contact"),
+    OfIndex::new("rms_pressure_pa", |r| r.contact.and_then(|c| c.rms_pressure_pa).into(), "the same, root mean square"),
+    OfIndex::new("mean_gap_m", |r| r.contact.and_then(|c| c.mean_gap_m).into(), "gap, mean over all cells under the indenter, 0 in contact"),
+    OfIndex::new("rms_gap_m", |r| r.contact.and_then(|c| c.rms_gap_m).into(), "the same, root mean square"),
+];
+
+/// The statistics of a field on cells.
+fn statistics(plan: &ScenarioPlan, record: &SurfaceRecord) -> Option<ContactStatistics> {
+    let Surface::Cells(cells) = &record.surface else {
+        return None;
+    };
+    let repeats = plan.contact.indenter.is_periodic();
+    Some(ContactStatistics::of(
+        cells,
+        record.gap_m.as_deref(),
+        repeats,
+    ))
+}
+
+/// The row of a surface and its grid.
+type Listed = (HistoryRow, Option<Grid>);
+
+fn listed((index, (row, grid)): (usize, Listed)) -> Indexed {
+    Indexed {
         index,
         row,
         cells: [Grid::cells_x, Grid::cells_y].map(|of| grid.map(|grid| of(&grid))),
         spacing_m: [Grid::spacing_x_m, Grid::spacing_y_m].map(|of| grid.map(|grid| of(&grid))),
-    };
-    let rows: Vec<Indexed> = surfaces.enumerate().map(row).collect();
-    quantities::table(INDEX, &rows)
+        contact: None,
+    }
 }
 
 /// A row of [`profile_file`].

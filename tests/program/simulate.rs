@@ -415,6 +415,43 @@ fn fields_are_arrays_for_numpy_and_images_for_paraview() {
         "out",
         "figures/pressure-map.svg figures/pressure-map.png cases/fields/1-displacement_m.npy",
     );
+    // What is said of the contact as a whole is that of the arrays, and the curves end in it.
+    let index = place.table("out/cases/fields/index.csv");
+    let (_, pressure) = npy(&place.bytes("out/cases/fields/1-pressure_pa.npy"));
+    let (_, gap) = npy(&place.bytes("out/cases/fields/1-gap_m.npy"));
+    let pressed: Vec<f64> = pressure.iter().filter(|p| **p > 0.0).copied().collect();
+    let fraction = pressed.len() as f64 / pressure.len() as f64;
+    let mean = pressed.iter().sum::<f64>() / pressed.len() as f64;
+    let gaps = pressure.iter().zip(&gap).filter(|(p, _)| **p == 0.0);
+    let mean_gap = gaps.map(|(_, gap)| gap).sum::<f64>() / gap.len() as f64;
+    for (column, expected) in [
+        ("contact_fraction", fraction),
+        ("contact_patches", 1.0),
+        ("largest_patch_m2", pressed.len() as f64 * spacing * spacing),
+        ("mean_pressure_pa", mean),
+        ("mean_gap_m", mean_gap),
+    ] {
+        // Sums in another order.
+        let found = index.number(1, column);
+        assert!(
+            (found / expected - 1.0).abs() < 1e-12,
+            "{column} {found} {expected}"
+        );
+    }
+    let above = place.table("out/figures/pressure-distribution.csv");
+    let most = pressed.iter().copied().fold(0.0, f64::max);
+    let last = above.len() - 1;
+    assert_eq!(above.number(0, "contact_share"), 1.0);
+    assert!(
+        above.number(last, "contact_share") == 0.0 && above.number(last, "pressure_pa") >= most
+    );
+    let gaps = place.table("out/figures/gap-distribution.csv");
+    let first = (0..gaps.len()).rfind(|row| gaps.number(*row, "gap_m") == 0.0);
+    let share = gaps.number(first.unwrap(), "surface_share");
+    assert!(
+        (share - (1.0 - fraction)).abs() < 1e-12,
+        "{share} {fraction}"
+    );
     let profile = place.text("out/cases/profiles/0.csv");
     assert!(profile.starts_with("line,position_m,pressure_pa,displacement_m,gap_m\nx,"));
     assert_eq!(profile.lines().filter(|l| l.starts_with("y,")).count(), 24);

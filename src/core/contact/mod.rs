@@ -40,6 +40,7 @@
 
 pub mod axisymmetric;
 pub mod half_space;
+pub mod statistics;
 pub(crate) mod sums;
 pub mod surface;
 

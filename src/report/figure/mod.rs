@@ -1,5 +1,6 @@
 //! Figures, one file each: a chart, its caption and the data behind it. [`press`] writes them in the forms asked for.
 
+mod at_times;
 mod attracted;
 pub mod comparison;
 pub mod curve;
@@ -7,6 +8,7 @@ pub mod cycle_losses;
 pub mod dissipation;
 pub mod dissipation_map;
 pub mod dissipation_profile;
+pub mod distributions;
 pub mod drive_map;
 pub mod dynamic;
 pub mod energy_loss;
