@@ -19,12 +19,11 @@ from tamaas_pmma import POISSON, SHEAR, creep_branches, hertz_radius, pmma, repo
 LOAD, AMPLITUDE, OMEGA = 10.0, 5.0, 0.01
 
 
-def influence_at_apex(cells, side):
-    """Displacement of the centre of cell (cells/2, cells/2) under a unit pressure on each cell, times the plane-strain modulus
+def influence_at(cells, side, cell):
+    """Displacement of the centre of a cell under a unit pressure on each cell, times the plane-strain modulus
     (A. E. H. Love, Philosophical Transactions A 228 (1929) 377)."""
-    h = side / cells
-    edges = (np.arange(cells + 1) - cells // 2 - 0.5) * h
-    x, y = edges[:, None], edges[None, :]
+    x, y = ((np.arange(cells + 1) - at - 0.5) * side / cells for at in cell)
+    x, y = x[:, None], y[None, :]
     potential = x * np.arcsinh(y / np.abs(x)) + y * np.arcsinh(x / np.abs(y))
     return (potential[1:, 1:] - potential[:-1, 1:] - potential[1:, :-1] + potential[:-1, :-1]) / np.pi
 
@@ -57,7 +56,7 @@ def main():
     step_s = 2 * np.pi / OMEGA / steps
     load = LOAD + AMPLITUDE * np.sin(OMEGA * step_s * np.arange(1, steps * cycles + 1))
     side = 4 * hertz_radius(load.max())
-    influence = influence_at_apex(cells, side)
+    influence = influence_at(cells, side, (cells // 2, cells // 2))
     started = time.process_time()
     model, solver = pmma(cells, side, step_s)
     under_apex = []
@@ -70,4 +69,5 @@ def main():
     report(cpu_s, cells=cells, steps=steps, cycles=cycles, energy_loss_j=loss_j)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -29,7 +29,8 @@ fn a_mean_pressure_is_the_load_over_the_area_of_a_period() {
     let loss_j = |text: &str| place.swept(text).number(0, "energy_loss_j");
     let by_load = loss_j(SWEEP);
     let by_pressure = loss_j(&SWEEP.replace(load, &pressure));
-    near!(by_pressure, by_load, 1e-12);
+    // The loads are a rounding apart, and instants are solved to a tolerance: what is within it depends on the rounding.
+    near!(by_pressure, by_load, 1e-8);
     // The resolved file tells the load, and is the same sweep again.
     let resolved = place.text("out/resolved.toml");
     says(&resolved, &["control = \"load\""]);

@@ -387,6 +387,9 @@ impl EngineBuilder {
         if self.layer.is_none() && self.indenter.axisymmetric().is_some() {
             engine = engine.in_round_contact();
         }
+        if self.indenter.own_cells().is_some() {
+            engine = engine.in_many_patches();
+        }
         if let Some(rim) = self.indenter.rim() {
             engine = engine.ending_at_rim(rim.radius_m);
         }

@@ -37,6 +37,8 @@ pub struct HalfSpace {
     bounded_pressure: bool,
     /// Whether every contact is a disc.
     round_contact: bool,
+    /// Whether contacts are rough, of many patches.
+    many_patches: bool,
     /// Radius of the indenter's face over that of the disc with the area of the cells under it, where it ends in a rim.
     radius_ratio: f64,
     /// Steps of an instant after which the fast way is left for the safe one.
@@ -82,6 +84,7 @@ impl HalfSpace {
             settings,
             bounded_pressure,
             round_contact: false,
+            many_patches: false,
             radius_ratio: 1.0,
             fast_steps: usize::MAX,
             end_of_data: Vec::new(),
@@ -116,6 +119,12 @@ impl HalfSpace {
     /// The same engine for a convex body of revolution on a half-space, whose contact is always a disc.
     pub fn in_round_contact(mut self) -> Self {
         self.round_contact = true;
+        self
+    }
+
+    /// The same engine for a map, which may be rough: in contacts of many patches, cells of negative pressure wait where that is faster.
+    pub fn in_many_patches(mut self) -> Self {
+        self.many_patches = true;
         self
     }
 

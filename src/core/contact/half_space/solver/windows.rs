@@ -214,7 +214,7 @@ impl HalfSpace {
                 tolerance: self.settings.tolerance,
                 fast_steps: self.fast_steps,
                 noise_m: ROUNDING * (largest_m + level_m),
-                waits: false,
+                waits: self.many_patches,
             };
             let steps = self.settings.max_iterations;
             let ended = self
