@@ -137,11 +137,14 @@ for frame, kind in zip(frames, ("periodic", "free")):
             name = row["program"] + (f", {row['threads']} threads" if row["threads"] != "1" else "")
             series.setdefault(name, []).append((int(row["cells"]), float(row["microseconds_per_cell_and_instant"])))
     for name, points in series.items():
-        style = styles.setdefault(name, dict(marker=next(marks), color=f"C{len(styles)}"))
-        frame.loglog(*zip(*sorted(points)), label=name, **style)
+        if name not in styles:
+            styles[name] = dict(marker=next(marks), color=f"C{len(styles)}")
+        frame.loglog(*zip(*sorted(points)), label=name, **styles[name])
     frame.set(title={"periodic": "one period", "free": "free space"}[kind], xlabel="cells per side")
     ticks = sorted({int(row["cells"]) for row in rows})
-    frame.set_xticks(ticks, ticks); frame.minorticks_off(); frame.grid(alpha=0.3)
+    frame.set_xticks(ticks, ticks)
+    frame.minorticks_off()
+    frame.grid(alpha=0.3)
 frames[0].set_ylabel("time per cell and instant / \\u00b5s")
 frames[0].legend(fontsize=8)
 for ending in ("svg", "png"):
