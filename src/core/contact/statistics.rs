@@ -76,7 +76,8 @@ pub fn shares_above(
         let guess = guess.min(places);
         // Rounding may put a value that is a place on either side of it.
         let is_too_high = guess > 0 && place(guess - 1) >= value;
-        above[guess - usize::from(is_too_high)] += 1;
+        let is_too_low = guess < places && place(guess) < value;
+        above[guess - usize::from(is_too_high) + usize::from(is_too_low)] += 1;
         count += 1;
     }
     let mut left = count;
