@@ -19,6 +19,7 @@ use crate::contact::ContactError;
 use crate::contact::sums::{add_scaled, dot, least, least_of, sum, sums};
 use problem::Waiting;
 pub(super) use problem::{Elastic, InstantOfCells, IterateState, Scratches, StopReason, Work};
+pub(super) use spans::over_blocks;
 use spans::{OfBlocks, Run, Spans};
 
 /// Steps over which a gap may be carried along by recursion before rounding has piled up in it.
@@ -107,15 +108,19 @@ impl ActiveSet {
             problem
                 .elastic
                 .load(&self.pressure, &self.gap_m, problem.compliance_per_pa);
-        let mut lifted = 0.0;
         let cells_x = problem.elastic.cells_x();
-        let rows = self.pressure.chunks_exact(cells_x);
-        for (pressure, gap_m) in rows.zip(self.gap_m.chunks_exact(cells_x)) {
-            // Where there is no indenter the gap is infinite and the pressure zero.
-            lifted += sums(pressure, gap_m, |p, gap| {
-                [if p > 0.0 { p * gap } else { 0.0 }]
-            })[0];
-        }
+        let (pressure, gap_m) = (&self.pressure, &self.gap_m);
+        let lifted = over_blocks(pressure.len(), cells_x, |cells| {
+            let rows = pressure[cells.clone()].chunks_exact(cells_x);
+            let lifted = rows
+                .zip(gap_m[cells].chunks_exact(cells_x))
+                .map(|(p, gap)| {
+                    // Where there is no indenter the gap is infinite and the pressure zero.
+                    sums(p, gap, |p, gap| [if p > 0.0 { p * gap } else { 0.0 }])[0]
+                });
+            [lifted.sum()]
+        });
+        let lifted = lifted.total(0);
         let mean = |sum: f64| match pressure_sum > 0.0 {
             true => sum / pressure_sum,
             false => 0.0,
@@ -150,31 +155,38 @@ impl ActiveSet {
         state: &IterateState,
         joining_m: f64,
     ) -> (f64, f64, f64) {
-        let (mut misfit, mut lowest_m, mut highest_m) = (0.0, 0.0_f64, 0.0_f64);
-        let cells_x = problem.elastic.cells_x();
-        self.contact.clear(self.pressure.len(), cells_x);
-        let rows = self.pressure.chunks_exact(cells_x);
-        for (iy, (pressure, gaps_m)) in rows.zip(self.gap_m.chunks_exact(cells_x)).enumerate() {
-            let least_m = least(gaps_m) - state.approach_m;
-            if least_m >= joining_m && sum(pressure) == 0.0 {
-                lowest_m = lowest_m.min(least_m);
-                continue;
-            }
-            for (ix, (&p, &gap)) in pressure.iter().zip(gaps_m).enumerate() {
-                let gap_m = gap - state.approach_m;
-                if p > 0.0 {
-                    misfit += p * gap_m.abs();
-                    highest_m = highest_m.max(gap_m);
-                } else {
-                    lowest_m = lowest_m.min(gap_m);
-                    if gap_m >= joining_m {
+        let (cells_x, approach_m) = (problem.elastic.cells_x(), state.approach_m);
+        let (pressure, gap_m) = (&self.pressure, &self.gap_m);
+        let found = self
+            .contact
+            .find(pressure.len(), cells_x, |cells, contact| {
+                let (mut misfit, mut lowest_m, mut highest_m) = (0.0, 0.0_f64, 0.0_f64);
+                let starts = cells.clone().step_by(cells_x);
+                let rows = pressure[cells.clone()].chunks_exact(cells_x);
+                let rows = rows.zip(gap_m[cells].chunks_exact(cells_x));
+                for (start, (pressure, gaps_m)) in starts.zip(rows) {
+                    let least_m = least(gaps_m) - approach_m;
+                    if least_m >= joining_m && sum(pressure) == 0.0 {
+                        lowest_m = lowest_m.min(least_m);
                         continue;
                     }
+                    for (cell, (&p, &gap)) in (start..).zip(pressure.iter().zip(gaps_m)) {
+                        let gap_m = gap - approach_m;
+                        if p > 0.0 {
+                            misfit += p * gap_m.abs();
+                            highest_m = highest_m.max(gap_m);
+                        } else {
+                            lowest_m = lowest_m.min(gap_m);
+                            if gap_m >= joining_m {
+                                continue;
+                            }
+                        }
+                        contact.push(cell);
+                    }
                 }
-                self.contact.push(iy * cells_x + ix);
-            }
-        }
-        (misfit, highest_m, lowest_m)
+                [misfit, -highest_m, lowest_m]
+            });
+        (found.total(0), -found.least(1), found.least(2))
     }
 
     /// Conjugate gradients on the contact as it is; whether cells of negative pressure wait. False where there is no way down.
@@ -194,10 +206,15 @@ impl ActiveSet {
             &mut self.direction,
             &mut self.constant,
         ] {
-            values.clear();
             values.resize(cells, 0.0);
         }
-        self.field.fill(0.0);
+        let (window, contact) = ([&mut self.field[..]], [&mut self.direction[..]]);
+        self.contact
+            .each(window, contact, |_, [field], [direction]| {
+                field.fill(0.0);
+                direction.fill(0.0);
+                []
+            });
         let constant_sum = self.precondition_constant(problem, scratch)?;
         let (mut previous, mut first_misfit, mut least_outside_m) = (0.0, 0.0, f64::INFINITY);
         let mut has_negative = false;

@@ -14,7 +14,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use super::active_set::{
-    ActiveSet, Elastic, FRESH_STEPS, InstantOfCells, Scratches, StopReason, Work,
+    ActiveSet, Elastic, FRESH_STEPS, InstantOfCells, Scratches, StopReason, Work, over_blocks,
 };
 use super::convolution::ConvolutionError;
 pub use super::convolution::PeriodicOperator;
@@ -232,12 +232,16 @@ impl Elastic for Period<'_> {
 
     /// Without its mean, a displacement is as large as the distance between its extremes.
     fn load(&self, pressure: &[f64], gap_m: &[f64], _compliance_per_pa: f64) -> (f64, f64) {
-        let (mut least_m, mut largest_m) = (f64::INFINITY, f64::NEG_INFINITY);
-        for (gap, free) in gap_m.iter().zip(self.free_gap_m) {
-            let lift_m = gap - free;
-            (least_m, largest_m) = (least_m.min(lift_m), largest_m.max(lift_m));
-        }
-        (sums::sum(pressure), largest_m - least_m)
+        let free_gap_m = self.free_gap_m;
+        let found = over_blocks(pressure.len(), self.cells_x(), |cells| {
+            let (mut least_m, mut largest_m) = (f64::INFINITY, f64::NEG_INFINITY);
+            for (gap, free) in gap_m[cells.clone()].iter().zip(&free_gap_m[cells.clone()]) {
+                let lift_m = gap - free;
+                (least_m, largest_m) = (least_m.min(lift_m), largest_m.max(lift_m));
+            }
+            [sums::sum(&pressure[cells]), least_m, -largest_m]
+        });
+        (found.total(0), -found.least(2) - found.least(1))
     }
 }
 

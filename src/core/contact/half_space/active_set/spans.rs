@@ -14,16 +14,114 @@ const FEWEST_CELLS: usize = 1 << 16;
 /// Runs of cells in ascending order; none goes on from one block into the next.
 #[derive(Debug, Default)]
 pub(super) struct Spans {
-    runs: Vec<Range<usize>>,
-    cells: usize,
+    /// Of every block.
+    found: Vec<Found>,
+    /// Cells of the contact before every block, and of all of them.
+    before: Vec<usize>,
+    cut: Cut,
+}
+
+/// How a window is cut into blocks.
+#[derive(Debug, Clone, Copy, Default)]
+struct Cut {
     /// Cells of the window.
     window: usize,
     /// Cells of a block; the last one may have fewer.
     block: usize,
-    /// Where the first block that is not begun has its first cell.
-    next: usize,
-    /// Runs, and cells of the contact, before every block that is begun.
-    before: Vec<(usize, usize)>,
+}
+
+impl Cut {
+    /// Of a window of rows of this many cells.
+    fn new(window: usize, cells_x: usize) -> Self {
+        let rows = window / cells_x.max(1);
+        let is_cut = window >= FEWEST_CELLS && rows >= BLOCKS;
+        let block = match is_cut {
+            true => rows.div_ceil(BLOCKS) * cells_x,
+            false => window,
+        };
+        Self { window, block }
+    }
+
+    fn blocks(self) -> usize {
+        self.window.div_ceil(self.block.max(1)).max(1)
+    }
+
+    fn cells(self, number: usize) -> Range<usize> {
+        let start = number * self.block;
+        start..(start + self.block).min(self.window)
+    }
+}
+
+/// The runs of one block.
+#[derive(Debug, Default)]
+pub(super) struct Found {
+    runs: Vec<Range<usize>>,
+    cells: usize,
+}
+
+impl Found {
+    /// Adds a cell of the block beyond all cells so far.
+    pub(super) fn push(&mut self, cell: usize) {
+        self.cells += 1;
+        match self.runs.last_mut() {
+            Some(run) if run.end == cell => run.end += 1,
+            _ => self.runs.push(cell..cell + 1),
+        }
+    }
+}
+
+/// What a function of the cells of a block comes to for every block of a window of rows of `cells_x` cells.
+pub(in super::super) fn over_blocks<const N: usize>(
+    window: usize,
+    cells_x: usize,
+    leaf: impl Fn(Range<usize>) -> [f64; N] + Sync,
+) -> OfBlocks<N> {
+    let cut = Cut::new(window, cells_x);
+    let (mut values, blocks) = ([[0.0; N]; BLOCKS], cut.blocks());
+    in_halves(
+        0,
+        &mut [(); BLOCKS][..blocks],
+        &mut values,
+        &|number, (), value| {
+            *value = leaf(cut.cells(number));
+        },
+    );
+    OfBlocks { values, blocks }
+}
+
+/// Does something to every item with the value of the same place; idle threads of the pool take a half.
+fn in_halves<T: Send, V: Send>(
+    first: usize,
+    items: &mut [T],
+    values: &mut [V],
+    leaf: &(impl Fn(usize, &mut T, &mut V) + Sync),
+) {
+    if items.len() < 2 {
+        for (item, value) in items.iter_mut().zip(values) {
+            leaf(first, item, value);
+        }
+        return;
+    }
+    let middle = items.len() / 2;
+    let (items, other_items) = items.split_at_mut(middle);
+    let (values, other_values) = values.split_at_mut(middle);
+    either_way(
+        || in_halves(first, items, values, leaf),
+        || in_halves(first + middle, other_items, other_values, leaf),
+    );
+}
+
+/// Both, at the same time in a pool of several threads.
+fn either_way(these: impl FnOnce() + Send, those: impl FnOnce() + Send) {
+    match rayon::current_thread_index() {
+        Some(_) if rayon::current_num_threads() > 1 => {
+            rayon::join(these, those);
+        }
+        _ => {
+            these();
+            those();
+        }
+    }
 }
 
 /// A run: its cells in the window and in a field of the contact, counted from the beginning of its block.
@@ -65,7 +163,7 @@ impl Block<'_> {
 }
 
 /// What every block came to.
-pub(super) struct OfBlocks<const N: usize> {
+pub(in super::super) struct OfBlocks<const N: usize> {
     values: [[f64; N]; BLOCKS],
     blocks: usize,
 }
@@ -75,11 +173,11 @@ impl<const N: usize> OfBlocks<N> {
         self.values[..self.blocks].iter().map(move |own| own[which])
     }
 
-    pub(super) fn total(&self, which: usize) -> f64 {
+    pub(in super::super) fn total(&self, which: usize) -> f64 {
         self.used(which).sum()
     }
 
-    pub(super) fn least(&self, which: usize) -> f64 {
+    pub(in super::super) fn least(&self, which: usize) -> f64 {
         self.used(which).fold(f64::INFINITY, f64::min)
     }
 }
@@ -92,53 +190,37 @@ fn cut<const K: usize>(slices: [&mut [f64]; K], at: usize) -> ([&mut [f64]; K], 
 }
 
 impl Spans {
-    /// Begins anew on a window of rows of this many cells.
-    pub(super) fn clear(&mut self, window: usize, cells_x: usize) {
-        let rows = window / cells_x.max(1);
-        let is_cut = window >= FEWEST_CELLS && rows >= BLOCKS;
-        self.runs.clear();
+    /// Finds the contact anew on a window of rows of `cells_x` cells: `leaf` adds those of the cells of a block that are in it.
+    pub(super) fn find<const N: usize>(
+        &mut self,
+        window: usize,
+        cells_x: usize,
+        leaf: impl Fn(Range<usize>, &mut Found) -> [f64; N] + Sync,
+    ) -> OfBlocks<N> {
+        let cut = Cut::new(window, cells_x);
+        let (mut values, blocks) = ([[0.0; N]; BLOCKS], cut.blocks());
+        self.cut = cut;
+        self.found.resize_with(blocks, Found::default);
+        in_halves(0, &mut self.found, &mut values, &|number, found, value| {
+            found.runs.clear();
+            found.cells = 0;
+            *value = leaf(cut.cells(number), found);
+        });
         self.before.clear();
-        self.cells = 0;
-        self.window = window;
-        self.block = if is_cut {
-            rows.div_ceil(BLOCKS) * cells_x
-        } else {
-            window
-        };
-        self.next = 0;
-    }
-
-    /// Adds a cell beyond all cells so far.
-    pub(super) fn push(&mut self, cell: usize) {
-        let begins = cell >= self.next;
-        while cell >= self.next {
-            self.before.push((self.runs.len(), self.cells));
-            self.next += self.block;
-        }
-        self.cells += 1;
-        match self.runs.last_mut() {
-            Some(run) if run.end == cell && !begins => run.end += 1,
-            _ => self.runs.push(cell..cell + 1),
-        }
-    }
-
-    fn blocks(&self) -> usize {
-        self.window.div_ceil(self.block.max(1)).max(1)
-    }
-
-    /// Runs, and cells of the contact, before a block.
-    fn before(&self, block: usize) -> (usize, usize) {
-        let begun = self.before.get(block).copied();
-        begun.unwrap_or((self.runs.len(), self.cells))
+        self.before.push(0);
+        let mut cells = 0;
+        self.before.extend(self.found.iter().map(|found| {
+            cells += found.cells;
+            cells
+        }));
+        OfBlocks { values, blocks }
     }
 
     fn block(&self, number: usize) -> Block<'_> {
-        let ((run, from), (end, to)) = (self.before(number), self.before(number + 1));
-        let start = number * self.block;
         Block {
-            runs: &self.runs[run..end],
-            window: start..(start + self.block).min(self.window),
-            contact: from..to,
+            runs: &self.found[number].runs,
+            window: self.cut.cells(number),
+            contact: self.before[number]..self.before[number + 1],
         }
     }
 
@@ -149,7 +231,7 @@ impl Spans {
         contact: [&mut [f64]; C],
         leaf: impl Fn(&Block<'_>, [&mut [f64]; W], [&mut [f64]; C]) -> [f64; N] + Sync,
     ) -> OfBlocks<N> {
-        let blocks = self.blocks();
+        let blocks = self.found.len();
         let mut values = [[0.0; N]; BLOCKS];
         let fields = (window, contact);
         self.each_of(0..blocks, fields, &mut values[..blocks], &leaf);
@@ -169,9 +251,9 @@ impl Spans {
         }
         let middle = usize::midpoint(blocks.start, blocks.end);
         let (values, others) = values.split_at_mut(middle - blocks.start);
-        let (first, from) = (blocks.start * self.block, self.before(blocks.start).1);
-        let (window, window_rest) = cut(window, middle * self.block - first);
-        let (contact, contact_rest) = cut(contact, self.before(middle).1 - from);
+        let (first, from) = (blocks.start * self.cut.block, self.before[blocks.start]);
+        let (window, window_rest) = cut(window, middle * self.cut.block - first);
+        let (contact, contact_rest) = cut(contact, self.before[middle] - from);
         let these = || self.each_of(blocks.start..middle, (window, contact), values, leaf);
         let those = || {
             self.each_of(
@@ -181,27 +263,20 @@ impl Spans {
                 leaf,
             )
         };
-        match rayon::current_thread_index() {
-            Some(_) if rayon::current_num_threads() > 1 => {
-                rayon::join(these, those);
-            }
-            _ => {
-                these();
-                those();
-            }
-        }
+        either_way(these, those);
     }
 
     /// Number of cells.
     pub(super) fn cells(&self) -> usize {
-        self.cells
+        self.before.last().copied().unwrap_or(0)
     }
 
     /// Rows of `cells_x` cells from the first to the last that has a cell.
     pub(super) fn rows(&self, cells_x: usize) -> Range<usize> {
-        let first = self.runs.first().map_or(0, |run| run.start / cells_x);
-        let last = self.runs.last().map_or(0, |run| run.end.div_ceil(cells_x));
-        first..last
+        let runs = || self.found.iter().flat_map(|found| &found.runs);
+        let first = runs().next().map_or(0, |run| run.start / cells_x);
+        let last = (self.found.iter().rev()).find_map(|found| found.runs.last());
+        first..last.map_or(0, |run| run.end.div_ceil(cells_x))
     }
 }
 
@@ -211,8 +286,11 @@ mod tests {
 
     fn spans(window: usize, cells_x: usize, chosen: &[usize]) -> Spans {
         let mut spans = Spans::default();
-        spans.clear(window, cells_x);
-        chosen.iter().for_each(|&cell| spans.push(cell));
+        spans.find(window, cells_x, |cells, found| {
+            let own = chosen.iter().filter(|cell| cells.contains(cell));
+            own.for_each(|&cell| found.push(cell));
+            []
+        });
         spans
     }
 
@@ -249,7 +327,7 @@ mod tests {
             .filter(|cell| cell % 7 < 4 && !(20_000..45_000).contains(cell) && *cell < 80_000)
             .collect();
         let spans = spans(window, cells_x, &chosen);
-        assert_eq!(spans.blocks(), BLOCKS);
+        assert_eq!(spans.found.len(), BLOCKS);
         let values: Vec<f64> = chosen.iter().map(|cell| (*cell as f64).sqrt()).collect();
         let run = || {
             let (mut field, mut contact) = (vec![0.0; window], values.clone());
