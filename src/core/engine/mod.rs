@@ -294,7 +294,7 @@ impl EngineBuilder {
                 let field = CellField {
                     grid: *grid,
                     is_periodic: self.indenter.is_periodic(),
-                    is_map: self.indenter.is_periodic() || self.indenter.ends_in_data(),
+                    is_map: self.indenter.own_cells().is_some(),
                 };
                 field.memory_bytes(branches)
             }

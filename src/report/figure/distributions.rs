@@ -23,6 +23,9 @@ const GAP: Quantity = Quantity::new("gap_m", "gap g", Measure::Approach);
 /// A field on cells, its time (s) and its gaps (m).
 type Field<'a> = (f64, &'a CellSurface, Option<&'a [f64]>);
 
+/// Values over a field, gone through and not copied: a field may have millions.
+type Values<'a> = Box<dyn Iterator<Item = f64> + 'a>;
+
 /// The figures of these fields: shares of the contact above every pressure, and of the surface above every gap. None where no cells are
 /// recorded, or nothing touches.
 pub fn figures(records: &[SurfaceRecord], units: &Units) -> Vec<Figure> {
@@ -37,10 +40,10 @@ pub fn figures(records: &[SurfaceRecord], units: &Units) -> Vec<Figure> {
         .collect()
 }
 
-fn pressures(fields: &[Field<'_>], units: &Units) -> Drawn {
-    let of = |field: &Field<'_>| -> Option<Vec<f64>> {
-        let pressed = field.1.pressure_pa.iter().filter(|p| **p > 0.0);
-        Some(pressed.copied().collect())
+fn pressures<'a>(fields: &[Field<'a>], units: &Units) -> Drawn {
+    let of = |&(_, cells, _): &Field<'a>| -> Option<Values<'a>> {
+        let pressed = cells.pressure_pa.iter().filter(|p| **p > 0.0);
+        Some(Box::new(pressed.copied()))
     };
     let share = Quantity::new("contact_share", "contact area above p", Measure::Percent);
     let (plot, labels, most) = plot(fields, of, (PRESSURE, share), units)?;
@@ -53,8 +56,10 @@ fn pressures(fields: &[Field<'_>], units: &Units) -> Drawn {
     Ok(Figure::of("pressure-distribution", &[plot], caption, units))
 }
 
-fn gaps(fields: &[Field<'_>], units: &Units) -> Drawn {
-    let of = |(_, cells, gap_m): &Field<'_>| Some(gaps_m(cells, (*gap_m)?).collect());
+fn gaps<'a>(fields: &[Field<'a>], units: &Units) -> Drawn {
+    let of = |&(_, cells, gap_m): &Field<'a>| -> Option<Values<'a>> {
+        Some(Box::new(gaps_m(cells, gap_m?)))
+    };
     let share = Quantity::new("surface_share", "surface above g", Measure::Percent);
     let (plot, labels, most) = plot(fields, of, (GAP, share), units)?;
     let caption = Caption::new(
@@ -66,28 +71,27 @@ fn gaps(fields: &[Field<'_>], units: &Units) -> Drawn {
 }
 
 /// The curves of the fields that are drawn, what they are called, and the largest value.
-fn plot(
-    fields: &[Field<'_>],
-    values_of: impl Fn(&Field<'_>) -> Option<Vec<f64>>,
+fn plot<'a>(
+    fields: &[Field<'a>],
+    values_of: impl Fn(&Field<'a>) -> Option<Values<'a>>,
     (x, y): (Quantity, Quantity),
     units: &Units,
 ) -> Result<(Plot, Vec<String>, f64), &'static str> {
-    let values = fields
-        .iter()
-        .filter_map(|field| Some((field.0, values_of(field)?)));
-    let values: Vec<(f64, Vec<f64>)> = values.filter(|(_, values)| !values.is_empty()).collect();
-    let most = largest(values.iter().flat_map(|(_, values)| values).copied());
+    let most = largest(fields.iter().filter_map(&values_of).flatten());
     if most <= 0.0 {
         return Err("nothing touches, or everything");
     }
-    let curves = at_times::chosen(&values, |(time_s, _)| *time_s);
-    let times_s: Vec<f64> = curves.iter().map(|(time_s, _)| *time_s).collect();
+    let has_values = |field: &&Field<'a>| values_of(field).is_some_and(|mut v| v.next().is_some());
+    let shown: Vec<&Field<'a>> = fields.iter().filter(has_values).collect();
+    let curves = at_times::chosen(&shown, |(time_s, ..)| *time_s);
+    let times_s: Vec<f64> = curves.iter().map(|(time_s, ..)| *time_s).collect();
     let labels = at_times::labels(&times_s, units);
     let traces = curves.iter().zip(&labels).enumerate();
-    let traces = traces.map(|(step, ((time_s, values), label))| {
-        Trace::line(shares_above(values.iter().copied(), most, POINTS))
+    let traces = traces.map(|(step, (field, label))| {
+        let values = values_of(field).into_iter().flatten();
+        Trace::line(shares_above(values, most, POINTS))
             .label(label)
-            .member(*time_s)
+            .member(field.0)
             .color(Color::of_family(step, curves.len()))
     });
     let plot = Plot::new(x, y)

@@ -18,7 +18,7 @@ use super::instant::STANDING_OFF;
 use crate::contact::ContactError;
 use crate::contact::sums::{add_scaled, dot, least, least_of, sum, sums};
 use problem::Waiting;
-pub(super) use problem::{Elastic, InstantOfCells, IterateState, Scratches, StopReason, Work};
+pub(super) use problem::{Elastic, InstantOfCells, IterateState, Scratches, Work};
 pub(super) use spans::over_blocks;
 use spans::{OfBlocks, Run, Spans};
 
@@ -66,14 +66,18 @@ impl ActiveSet {
         }
     }
 
-    /// Solves from the pressure and gap given, until the residual is below the tolerance or `steps` are counted.
+    /// Solves from the pressure and gap given, until the residual is below the tolerance. `None` where too little progress is made, or
+    /// [`InstantOfCells::fast_steps`] were taken: this is not the way.
+    ///
+    /// # Errors
+    /// [`ContactError::NotConverged`] after `steps`.
     pub(super) fn solve(
         &mut self,
         problem: &InstantOfCells<'_>,
         steps: usize,
         scratch: &mut Scratches,
         work: &mut Work,
-    ) -> Result<(IterateState, StopReason), ContactError> {
+    ) -> Result<Option<IterateState>, ContactError> {
         let (mut best, mut best_at) = (f64::INFINITY, work.steps);
         let mut waiting = Waiting::new(problem.waits);
         self.misfit_m = 0.0;
@@ -81,23 +85,27 @@ impl ActiveSet {
         loop {
             let state = self.assess(problem);
             if state.residual <= problem.tolerance {
-                return Ok((state, StopReason::Converged));
+                return Ok(Some(state));
             }
             if work.steps >= problem.fast_steps {
-                return Ok((state, StopReason::Stalled));
+                return Ok(None);
             }
             if work.steps >= steps {
-                return Ok((state, StopReason::OutOfSteps));
+                return Err(ContactError::NotConverged {
+                    iterations: work.steps,
+                    residual: state.residual,
+                    tolerance: problem.tolerance,
+                });
             }
             if state.residual < 0.5 * best {
                 (best, best_at) = (state.residual, work.steps);
             }
             if work.steps > best_at + PATIENCE || self.contact.cells() == 0 {
-                return Ok((state, StopReason::Stalled));
+                return Ok(None);
             }
             let waits = waiting.after(state.residual);
             if !self.solve_on_contact(problem, (&state, waits), steps, scratch, work)? {
-                return Ok((state, StopReason::Stalled));
+                return Ok(None);
             }
         }
     }

@@ -14,7 +14,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use super::active_set::{
-    ActiveSet, Elastic, FRESH_STEPS, InstantOfCells, Scratches, StopReason, Work, over_blocks,
+    ActiveSet, Elastic, FRESH_STEPS, InstantOfCells, Scratches, Work, over_blocks,
 };
 use super::convolution::ConvolutionError;
 pub use super::convolution::PeriodicOperator;
@@ -153,23 +153,12 @@ impl Periodic {
                 waits: true,
             };
             let steps = self.settings.max_iterations;
-            let (state, ending) = fields.solve(&problem, steps, &mut self.scratches, work)?;
+            let solved = fields.solve(&problem, steps, &mut self.scratches, work)?;
             pressure.copy_from_slice(&fields.pressure);
-            match ending {
-                StopReason::Converged if work.carried <= FRESH_STEPS => {
-                    return Ok(Some(state.approach_m));
-                }
-                // Rounding has piled up in a gap carried along by recursion: judge a fresh one.
-                StopReason::Converged => {}
-                StopReason::Stalled => return Ok(None),
-                StopReason::OutOfSteps => {
-                    return Err(ContactError::NotConverged {
-                        iterations: work.steps,
-                        residual: state.residual,
-                        tolerance: self.settings.tolerance,
-                    });
-                }
+            if solved.is_none() || work.carried <= FRESH_STEPS {
+                return Ok(solved.map(|state| state.approach_m));
             }
+            // Rounding has piled up in a gap carried along by recursion: judge a fresh one.
         }
     }
 

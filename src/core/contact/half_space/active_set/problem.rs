@@ -51,17 +51,6 @@ pub(in super::super) struct InstantOfCells<'a> {
     pub(in super::super) waits: bool,
 }
 
-/// Why the iteration stopped.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(in super::super) enum StopReason {
-    /// To the tolerance.
-    Converged,
-    /// Too little progress: not the way for this problem.
-    Stalled,
-    /// No steps are left.
-    OutOfSteps,
-}
-
 /// How far an iterate is from the solution.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in super::super) struct IterateState {

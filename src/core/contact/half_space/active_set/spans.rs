@@ -105,14 +105,14 @@ fn in_halves<T: Send, V: Send>(
     let middle = items.len() / 2;
     let (items, other_items) = items.split_at_mut(middle);
     let (values, other_values) = values.split_at_mut(middle);
-    either_way(
+    both(
         || in_halves(first, items, values, leaf),
         || in_halves(first + middle, other_items, other_values, leaf),
     );
 }
 
 /// Both, at the same time in a pool of several threads.
-fn either_way(these: impl FnOnce() + Send, those: impl FnOnce() + Send) {
+fn both(these: impl FnOnce() + Send, those: impl FnOnce() + Send) {
     match rayon::current_thread_index() {
         Some(_) if rayon::current_num_threads() > 1 => {
             rayon::join(these, those);
@@ -263,7 +263,7 @@ impl Spans {
                 leaf,
             )
         };
-        either_way(these, those);
+        both(these, those);
     }
 
     /// Number of cells.

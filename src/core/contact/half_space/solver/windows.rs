@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::super::active_set::{
-    Elastic, FRESH_STEPS, InstantOfCells, IterateState, Scratches, StopReason, Work,
+    Elastic, FRESH_STEPS, InstantOfCells, IterateState, Scratches, Work,
 };
 use super::super::convolution::{Convolution, ConvolutionError, WindowOperators};
 use super::super::influence::Influence;
@@ -111,19 +111,11 @@ impl HalfSpace {
         };
         loop {
             let windows = self.enter(instant, contact, history, pressure);
-            let (state, ending) = self.solve_in_window(windows, instant, imposed, work)?;
+            let solved = self.solve_in_window(windows, instant, imposed, work)?;
             contact.scatter(&self.fields.pressure, row, pressure);
-            match ending {
-                StopReason::Converged => {}
-                StopReason::Stalled => return Ok(None),
-                StopReason::OutOfSteps => {
-                    return Err(ContactError::NotConverged {
-                        iterations: work.steps,
-                        residual: state.residual,
-                        tolerance: self.settings.tolerance,
-                    });
-                }
-            }
+            let Some(state) = solved else {
+                return Ok(None);
+            };
             let loaded = Frame::of(&self.fields.pressure, contact.cells_x);
             let loaded = loaded.map(|loaded| loaded.moved(&contact));
             let touched = loaded.filter(|loaded| contact.is_touched_by(loaded, &grid));
@@ -194,7 +186,7 @@ impl HalfSpace {
         instant: &Instant<'_>,
         imposed: Imposed,
         work: &mut Work,
-    ) -> Result<(IterateState, StopReason), ContactError> {
+    ) -> Result<Option<IterateState>, ContactError> {
         let contact = windows.contact;
         let operator = Arc::clone(&self.operator);
         let elastic = Window {
@@ -217,11 +209,11 @@ impl HalfSpace {
                 waits: self.many_patches,
             };
             let steps = self.settings.max_iterations;
-            let ended = self
+            let solved = self
                 .fields
                 .solve(&problem, steps, &mut self.scratches, work)?;
-            if ended.1 != StopReason::Converged || work.carried <= FRESH_STEPS {
-                return Ok(ended);
+            if solved.is_none() || work.carried <= FRESH_STEPS {
+                return Ok(solved);
             }
             // Rounding has piled up in a gap carried along by recursion: judge a fresh one.
         }
