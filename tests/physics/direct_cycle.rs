@@ -70,6 +70,7 @@ impl Case<'_> {
         let settings = SteadySettings {
             tolerance,
             max_cycles: 100,
+            is_quick: true,
         };
         steady::find(march, &cycle, None, settings, &|| false).unwrap()
     }
@@ -227,6 +228,7 @@ fn a_search_that_may_not_go_on_says_so() {
     let settings = SteadySettings {
         tolerance: 1e-8,
         max_cycles: 3,
+        is_quick: true,
     };
     let found = steady::find(&mut march, &cycle, None, settings, &|| false).unwrap();
     assert!(!found.converged && found.cycles == 3 && found.distance > 1e-8);

@@ -32,12 +32,12 @@ fn cases_cost_what_they_did() {
         ("tapping sphere", tapping.clone(), [260, 593, 0]),
         ("prescribed approach", pressed.clone(), [195, 195, 0]),
         ("marched", marched, [258, 746, 0]),
-        ("sphere on cells", on_32(sphere()), [260, 713, 1248]),
-        ("with bars on cells", on_32_with_bars, [525, 1525, 2636]),
-        ("punch on cells", on_32(punch), [260, 110, 628]),
-        ("ellipsoid on cells", on_32(ellipsoid), [260, 913, 1525]),
-        ("tapping sphere on cells", on_32(tapping), [260, 643, 1240]),
-        ("approach on cells", on_32(pressed), [195, 712, 1184]),
+        ("sphere on cells", on_32(sphere()), [260, 390, 733]),
+        ("with bars on cells", on_32_with_bars, [525, 760, 1476]),
+        ("punch on cells", on_32(punch), [260, 87, 416]),
+        ("ellipsoid on cells", on_32(ellipsoid), [260, 447, 865]),
+        ("tapping sphere on cells", on_32(tapping), [260, 329, 694]),
+        ("approach on cells", on_32(pressed), [260, 519, 855]),
     ] {
         let record = run_case(&plan, 0.01);
         assert!(record.result.is_some(), "{name}: {:?}", record.message);

@@ -177,7 +177,12 @@ pub trait Engine: Send {
     /// short need none.
     fn interrupted_by(&mut self, _flag: Arc<AtomicBool>) {}
 
-    /// Gives the engine another tolerance of an instant; engines that solve exactly have none.
+    /// The tolerance of an instant; `None` of engines that solve exactly.
+    fn tolerance(&self) -> Option<f64> {
+        None
+    }
+
+    /// Gives the engine another one, where it has any.
     fn tolerate(&mut self, _tolerance: f64) {}
 
     /// Makes the engine what it was after the instant that came to `last`: what it carries from one instant to the next, which

@@ -10,57 +10,85 @@
 //! the sum over the branches is the area of the loop, by another route: nothing here knows of the loop. Within a step the
 //! integral is exact for the pressure the time rule assumes, at any ratio of step to retardation time.
 
+use super::displaced::Displaced;
 use super::memory::Memory;
-use super::rule::TimeRule;
-use crate::contact::{ContactError, Engine};
-use crate::material::Creep;
+use super::rule::{StepWeights, TimeRule};
+use crate::contact::{ContactError, Engine, sums};
 
 /// Energies of a number of equal steps, added up.
 pub struct Dissipation {
     nodes: usize,
     branches: Vec<Branch>,
     rule: TimeRule,
-    /// Memory at the start of the step; then d there. Branch-major.
+    /// What the state of the march displaces.
+    displaced: Displaced,
+    /// d at the start of the step. Branch-major.
     deviation: Vec<f64>,
-    /// Pressure at the start of the last stage, at this fraction of the step; then that at the start of the step.
+    /// At the start of the step, and at that of its last stage, which is at this fraction of it.
+    start: Pressed,
+    last: Pressed,
     passed: f64,
-    pressure: Vec<f64>,
-    /// Its change over the step.
-    change: Vec<f64>,
-    /// B applied to d of one branch and to the change.
-    of_deviation: Vec<f64>,
-    of_change: Vec<f64>,
 }
 
-/// One branch: compliance (1/Pa), energy so far (J), and the integrals over a step of the products of
+/// A pressure, and the displacement by it.
+#[derive(Debug, Default)]
+struct Pressed {
+    pressure: Vec<f64>,
+    displacement: Vec<f64>,
+}
+
+impl Pressed {
+    fn set(&mut self, pressure: &[f64], displaced: &Displaced) {
+        pressure.clone_into(&mut self.pressure);
+        displaced.of_pressure.clone_into(&mut self.displacement);
+    }
+
+    /// Its fields, each with another's and a third's of the same kind.
+    fn beside<'a>(
+        &'a mut self,
+        other: &'a mut Self,
+        pressure: &'a [f64],
+        displacement: &'a [f64],
+    ) -> [(&'a mut [f64], &'a mut [f64], &'a [f64]); 2] {
+        [
+            (&mut self.pressure, &mut other.pressure, pressure),
+            (
+                &mut self.displacement,
+                &mut other.displacement,
+                displacement,
+            ),
+        ]
+    }
+}
+
+/// One branch: compliance (1/Pa), energy so far (J), <d, B d> at the start of the step, and the integrals over a step of the products of
 /// exp(-t/lambda) and (1 - exp(-t/lambda)) lambda/step, in units of lambda.
 #[derive(Debug, Clone, Copy)]
 struct Branch {
     compliance_per_pa: f64,
     energy_j: f64,
+    at_start: f64,
     decaying: f64,
     mixed: f64,
     growing: f64,
 }
 
 impl Dissipation {
-    /// Nothing dissipated yet by a body of this contact compliance, seen through steps of `step_s` over `nodes` nodes.
-    pub fn new(compliance: &Creep, nodes: usize, step_s: f64, rule: TimeRule) -> Self {
-        let branches: Vec<Branch> = compliance
-            .branches()
-            .iter()
-            .map(|branch| Branch::new(branch.compliance_per_pa, step_s / branch.time_s))
-            .collect();
+    /// Nothing dissipated yet, in steps of `step_s` from a state on that displaces this.
+    pub(super) fn new(displaced: Displaced, step_s: f64, rule: TimeRule) -> Self {
+        let (nodes, memory) = (displaced.of_pressure.len(), &displaced.memory);
+        let branches = memory.compliance().branches().iter();
         Self {
             nodes,
             rule,
-            deviation: vec![0.0; nodes * branches.len()],
-            branches,
+            deviation: vec![0.0; memory.variables().len()],
+            branches: branches
+                .map(|branch| Branch::new(branch.compliance_per_pa, step_s / branch.time_s))
+                .collect(),
+            displaced,
+            start: Pressed::default(),
+            last: Pressed::default(),
             passed: 0.0,
-            pressure: vec![0.0; nodes],
-            change: vec![0.0; nodes],
-            of_deviation: vec![0.0; nodes],
-            of_change: vec![0.0; nodes],
         }
     }
 
@@ -69,51 +97,72 @@ impl Dissipation {
         self.branches.iter().map(|b| b.energy_j).collect()
     }
 
-    /// Takes in the state at the start of a step.
-    pub(super) fn begin(&mut self, memory: &Memory) {
-        self.deviation.copy_from_slice(memory.variables());
+    /// The displacement by the hereditary integral (m) of the instant last followed.
+    pub(super) fn displacement_m(&self) -> Vec<f64> {
+        self.displaced.of_hereditary_m()
     }
 
-    /// Takes in the pressure at the start of a stage, at this fraction of the step.
+    /// Takes in the state at the start of a step.
+    pub(super) fn begin(&mut self, engine: &dyn Engine, pressure: &[f64], memory: &Memory) {
+        let displaced = &mut self.displaced;
+        self.start.set(pressure, displaced);
+        let deviations = self.deviation.chunks_exact_mut(self.nodes);
+        let memories = memory.variables().chunks_exact(self.nodes);
+        let branches = self.branches.iter_mut().zip(deviations.zip(memories));
+        for (number, (branch, (deviation, memory))) in branches.enumerate() {
+            deviation.copy_from_slice(pressure);
+            sums::add_scaled(deviation, -1.0, memory);
+            branch.at_start = engine.work(deviation, displaced.of_deviation(number));
+        }
+    }
+
+    /// Takes in the start of a stage, at this fraction of the step.
     pub(super) fn passes(&mut self, fraction: f64, pressure: &[f64]) {
         self.passed = fraction;
-        self.pressure.copy_from_slice(pressure);
+        self.last.set(pressure, &self.displaced);
     }
 
-    /// Takes in the pressure at the end of a step; returns the convolutions that took. Within the step the pressure is linear
-    /// through its values at the start of the last stage and at the end.
-    pub(super) fn end(
+    /// Follows the march to the end of a stage; returns the convolutions that took.
+    pub(super) fn follow(
         &mut self,
         engine: &mut dyn Engine,
+        step: &StepWeights,
         pressure: &[f64],
     ) -> Result<usize, ContactError> {
-        let (passed, rule) = (self.passed, self.rule);
-        for ((start, change), end) in self.pressure.iter_mut().zip(&mut self.change).zip(pressure) {
-            // Under the constant rule the pressure stays as it was until the step is over.
-            *change = match rule {
-                TimeRule::Linear => (end - *start) / (1.0 - passed),
-                TimeRule::Constant => 0.0,
-            };
-            *start -= passed * *change;
-        }
-        for deviation in self.deviation.chunks_exact_mut(self.nodes) {
-            for (d, p) in deviation.iter_mut().zip(&self.pressure) {
-                *d = p - *d;
+        self.displaced.follow(engine, step, pressure)
+    }
+
+    /// Takes in the pressure at the end of a step. Within the step the pressure is linear through its values at the start of the last
+    /// stage and at the end.
+    pub(super) fn end(&mut self, engine: &dyn Engine, pressure: &[f64]) {
+        // What is at the start of the last stage becomes the change over the step; at the start, by how much more the line has there.
+        let displacement = &self.displaced.of_pressure;
+        let fields = (self.last).beside(&mut self.start, pressure, displacement);
+        for (last, start, end) in fields {
+            for ((last, start), end) in last.iter_mut().zip(start).zip(end) {
+                // Under the constant rule the pressure stays as it was until the step is over.
+                let change = match self.rule {
+                    TimeRule::Linear => (end - *last) / (1.0 - self.passed),
+                    TimeRule::Constant => 0.0,
+                };
+                *start = *last - self.passed * change - *start;
+                *last = change;
             }
         }
-        let mut convolutions = engine.elastic_displacement(&self.change, &mut self.of_change)?;
-        let changing = engine.work(&self.change, &self.of_change);
+        let (change, more) = (&self.last, &self.start);
+        let changing = engine.work(&change.pressure, &change.displacement);
+        let mixed = engine.work(&change.pressure, &more.displacement);
+        let more_alone = engine.work(&more.pressure, &more.displacement);
         let deviations = self.deviation.chunks_exact(self.nodes);
         for (branch, deviation) in self.branches.iter_mut().zip(deviations) {
-            convolutions += engine.elastic_displacement(deviation, &mut self.of_deviation)?;
-            let decaying = engine.work(deviation, &self.of_deviation);
-            let mixed = engine.work(&self.change, &self.of_deviation);
+            let decaying =
+                branch.at_start + 2.0 * engine.work(deviation, &more.displacement) + more_alone;
+            let mixed = mixed + engine.work(deviation, &change.displacement);
             branch.energy_j += branch.compliance_per_pa
                 * (branch.decaying * decaying
                     + 2.0 * branch.mixed * mixed
                     + branch.growing * changing);
         }
-        Ok(convolutions)
     }
 }
 
@@ -125,6 +174,7 @@ impl Branch {
         Self {
             compliance_per_pa,
             energy_j: 0.0,
+            at_start: 0.0,
             decaying: -0.5 * (-2.0 * z).exp_m1(),
             mixed: 0.5 * grown * grown / z,
             growing: growing_weight(z),

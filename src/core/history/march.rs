@@ -7,7 +7,9 @@ use serde::{Deserialize, Serialize};
 use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::{Response, Surface};
 use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution};
+use crate::history::displaced::Displaced;
 use crate::history::extrapolation::Extrapolation;
+use crate::history::last_cycle::{LastCycle, kept_bytes};
 use crate::history::{
     Dissipation, Hereditary, Memory, NodalWork, PastState, Stage, Step, TimeRule, Work,
 };
@@ -21,6 +23,8 @@ pub struct March<'a, M = Memory> {
     pressure: Vec<f64>,
     /// The pressure before an instant is solved is only a guess; `None` for an engine that does not ask for one.
     extrapolation: Option<Extrapolation>,
+    /// Where one cycle is marched after another.
+    last_cycle: Option<LastCycle>,
     history: Vec<f64>,
     /// A of the instant last solved (1/Pa).
     compliance_per_pa: f64,
@@ -64,6 +68,7 @@ impl<'a, M: Hereditary> March<'a, M> {
         let nodes = engine.nodes();
         Self {
             extrapolation: engine.starts_from_guess().then(Extrapolation::default),
+            last_cycle: None,
             engine,
             memory,
             rule,
@@ -119,8 +124,12 @@ impl<'a, M: Hereditary> March<'a, M> {
     pub fn begin_step(&mut self, weights: &Step<M::Weights>) {
         self.memory
             .predict(weights, &self.pressure, &mut self.history);
-        if let Some(extrapolation) = &mut self.extrapolation {
-            extrapolation.guess(weights.step_s, &mut self.pressure);
+        let is_known =
+            (self.last_cycle.as_ref()).is_some_and(|cycle| cycle.guess(&mut self.pressure));
+        match &mut self.extrapolation {
+            Some(extrapolation) if is_known => extrapolation.forget(),
+            Some(extrapolation) => extrapolation.guess(weights.step_s, &mut self.pressure),
+            None => {}
         }
     }
 
@@ -140,8 +149,37 @@ impl<'a, M: Hereditary> March<'a, M> {
         };
         let solution = self.engine.solve(&instant, &mut self.pressure)?;
         self.memory.commit(weights, &self.pressure);
+        if let Some(cycle) = &mut self.last_cycle {
+            cycle.see(&self.pressure);
+        }
         self.compliance_per_pa = weights.compliance_per_pa;
         Ok(self.count(solution))
+    }
+
+    /// Begins a cycle of so many steps before its first instant, whose pressures are guessed from those of the cycle before. Of more than fit
+    /// into memory, and of an engine that asks for no guess, none are kept.
+    pub(crate) fn begin_like_the_last(&mut self, steps: usize) {
+        let nodes = self.pressure.len();
+        if self.extrapolation.is_some() && kept_bytes(steps, nodes) > 0 {
+            self.last_cycle.get_or_insert_default().begin(nodes, 0);
+        }
+    }
+
+    /// Guesses from the instants before alone.
+    pub(crate) fn forget_last_cycle(&mut self) {
+        self.last_cycle = None;
+    }
+
+    /// The same behind its first instant, which was the last of the cycle before; where that was begun so.
+    pub(crate) fn go_on_like_the_last(&mut self) {
+        if let Some(cycle) = &mut self.last_cycle {
+            cycle.begin(self.pressure.len(), 1);
+        }
+    }
+
+    /// Whether guesses come from the cycle before.
+    pub(crate) fn knows_last_cycle(&self) -> bool {
+        self.last_cycle.is_some()
     }
 
     fn count(&mut self, solution: Solution) -> Solution {
@@ -355,6 +393,16 @@ impl<'a, M: Hereditary> March<'a, M> {
 
 /// What only the memory of a series can do.
 impl March<'_> {
+    /// Begins to add up what is dissipated from the present instant on, in steps of `step_s`.
+    ///
+    /// # Errors
+    /// As [`Engine::elastic_displacement`].
+    pub fn dissipation(&mut self, step_s: f64) -> Result<Dissipation, ContactError> {
+        let (displaced, convolutions) = Displaced::new(self.engine, &self.pressure, &self.memory)?;
+        self.work.convolutions += convolutions as u64;
+        Ok(Dissipation::new(displaced, step_s, self.rule))
+    }
+
     /// A step as [`March::step_in_stages`] takes it, whose dissipation is added up.
     ///
     /// # Errors
@@ -365,23 +413,28 @@ impl March<'_> {
         drive: impl Fn(f64) -> Prescribed,
         dissipation: &mut Dissipation,
     ) -> Result<(), ContactError> {
-        dissipation.begin(&self.memory);
-        let mut from = 0.0;
+        dissipation.begin(self.engine, &self.pressure, &self.memory);
+        let (mut from, mut convolutions) = (0.0, 0);
         for stage in stages {
             dissipation.passes(from, &self.pressure);
             self.step(&stage.weights, stage.prescribed(&drive))?;
+            convolutions += dissipation.follow(self.engine, &stage.weights, &self.pressure)?;
             from = stage.pressure_at;
         }
-        let convolutions = dissipation.end(self.engine, &self.pressure)?;
+        dissipation.end(self.engine, &self.pressure);
         self.work.convolutions += convolutions as u64;
         Ok(())
     }
 
-    /// Takes the present instant into the work at every node: at the beginning, then after every step.
+    /// Takes the present instant into the work at every node: at the beginning, then after every step whose dissipation was added up.
     ///
     /// # Errors
     /// As [`Engine::elastic_displacement`].
-    pub fn add_work(&mut self, work: &mut NodalWork) -> Result<(), ContactError> {
+    pub fn add_work(
+        &mut self,
+        work: &mut NodalWork,
+        dissipation: &Dissipation,
+    ) -> Result<(), ContactError> {
         let Some(solution) = self.solution else {
             return Ok(());
         };
@@ -390,6 +443,7 @@ impl March<'_> {
             self.engine,
             (solution.approach_m, &self.pressure),
             (hereditary, &self.memory),
+            dissipation.displacement_m(),
         )?;
         self.work.convolutions += convolutions as u64;
         Ok(())
@@ -437,6 +491,16 @@ impl March<'_> {
         if let Some(branch) = branch {
             self.memory.begin_cycle(branch);
         }
+    }
+
+    /// As [`Engine::tolerance`].
+    pub(crate) fn tolerance(&self) -> Option<f64> {
+        self.engine.tolerance()
+    }
+
+    /// As [`Engine::tolerate`].
+    pub(crate) fn tolerate(&mut self, tolerance: f64) {
+        self.engine.tolerate(tolerance);
     }
 
     /// Lets the next instant start from the last pressure alone.

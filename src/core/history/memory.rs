@@ -65,6 +65,25 @@ impl Memory {
         &mut self.fields[..self.nodes * self.compliance.branches().len()]
     }
 
+    /// Every field: the memory variables of one branch after another and, where there is a flow term, the integral of the pressure.
+    pub(super) fn each(&self) -> impl Iterator<Item = &[f64]> {
+        self.fields.chunks_exact(self.nodes.max(1))
+    }
+
+    pub(super) fn each_mut(&mut self) -> impl Iterator<Item = &mut [f64]> {
+        self.fields.chunks_exact_mut(self.nodes.max(1))
+    }
+
+    /// The hereditary integral of the instant last taken in, of this pressure.
+    pub(super) fn hereditary(&self, pressure: &[f64]) -> Vec<f64> {
+        let at_once = self.compliance.instantaneous_compliance();
+        let mut hereditary: Vec<f64> = pressure.iter().map(|p| at_once * p).collect();
+        for (field, per_pa) in self.each().zip(&self.compliances) {
+            sums::add_scaled(&mut hereditary, *per_pa, field);
+        }
+        hereditary
+    }
+
     /// The compliance after all branches have relaxed, without flow.
     pub(super) fn relaxed_compliance_per_pa(&self) -> f64 {
         let branches = self.compliance.branches().iter();

@@ -36,9 +36,11 @@
 
 mod cycle_sums;
 mod direct;
+mod displaced;
 mod dissipation;
 mod extrapolation;
 mod hereditary;
+mod last_cycle;
 mod march;
 mod memory;
 mod nodal_work;
@@ -50,9 +52,10 @@ pub use direct::{ComplianceFunction, DirectMemory};
 pub use dissipation::Dissipation;
 pub use extrapolation::Extrapolation;
 pub use hereditary::{Hereditary, PastState};
+pub(crate) use last_cycle::kept_bytes;
 pub use march::{March, Observer, StepState};
 pub use memory::Memory;
 pub use nodal_work::NodalWork;
-pub(crate) use rule::linear_weight;
 pub use rule::{DirectWeights, Recursion, Stage, Step, StepWeights, TimeRule, order_of_steps};
+pub(crate) use rule::{linear_weight, rings};
 pub use work::Work;

@@ -65,16 +65,17 @@ impl NodalWork {
         }
     }
 
-    /// Takes in an instant of this approach and hereditary integral q: that at the beginning, then that at the end of every step. Returns
-    /// the convolutions that took.
+    /// Takes in an instant of this approach, hereditary integral q and displacement B q (m): that at the beginning, then that at the end of
+    /// every step. Returns the convolutions that took.
     pub(super) fn see(
         &mut self,
         engine: &mut dyn Engine,
         (approach_m, pressure): (f64, &[f64]),
         (hereditary, memory): (Vec<f64>, &Memory),
+        displacement_m: Vec<f64>,
     ) -> Result<usize, ContactError> {
-        let mut gap_m = vec![0.0; hereditary.len()];
-        let mut convolutions = engine.elastic_displacement(&hereditary, &mut gap_m)?;
+        let mut convolutions = 0;
+        let mut gap_m = displacement_m;
         for (gap, initial) in gap_m.iter_mut().zip(engine.gap_m()) {
             *gap += initial - approach_m;
         }

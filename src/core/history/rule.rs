@@ -246,7 +246,7 @@ pub fn order_of_steps(compliance: &Creep) -> f64 {
 /// Whether steps of some length make a pressure that is linear within each of them ring: where one step is too high the next is
 /// too low. That of a trapezium, it does so where steps are long beside the time in which a pressure relaxes, which is shorter
 /// than the retardation time by the ratio of the moduli.
-pub(super) fn rings(compliance: &Creep) -> bool {
+pub(crate) fn rings(compliance: &Creep) -> bool {
     const PER_DECADE: f64 = 6.0;
     if compliance.viscosity_pa_s().is_some() {
         return true;

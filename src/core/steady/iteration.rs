@@ -2,6 +2,7 @@
 
 use super::anderson::Anderson;
 use super::correction::{ContactHistory, Correction};
+use super::instants::Instants;
 use super::remaining::Remaining;
 use crate::contact::{ContactError, Prescribed, Solution};
 use crate::cycle;
@@ -27,6 +28,8 @@ pub struct SteadySettings {
     pub tolerance: f64,
     /// Cycles after which the search has failed.
     pub max_cycles: usize,
+    /// Whether the first cycles may be less exact, which is the faster way and seldom one that leads astray.
+    pub is_quick: bool,
 }
 
 /// How the search ended. The march stands at the end of the last cycle.
@@ -60,21 +63,36 @@ pub fn find(
     settings: SteadySettings,
     stop: &dyn Fn() -> bool,
 ) -> Result<Steady, ContactError> {
+    let mut instants = Instants::new(march, start.is_some(), settings);
+    let found = find_by(march, (cycle, stop), start, settings, &mut instants);
+    instants.restore(march);
+    found
+}
+
+fn find_by(
+    march: &mut March<'_>,
+    (cycle, stop): (&Cycle<'_>, &dyn Fn() -> bool),
+    start: Option<Vec<f64>>,
+    settings: SteadySettings,
+    instants: &mut Instants,
+) -> Result<Steady, ContactError> {
     let map = CycleMap::new(march, cycle, stop);
     let mut search = Search::begin(march, cycle, start)?;
     let mut converged = false;
     let mut run = Run::new(march, cycle);
     let mut update = vec![0.0; search.start.len()];
     while search.cycles < settings.max_cycles {
+        instants.begin_cycle(march, cycle.steps * run.stages.len());
         let Some(reached) = map.cycle(march, &search.start, &mut run, &mut update)? else {
             break;
         };
         search.cycles += 1;
         search.distance = reached.distance;
-        converged = search.distance <= settings.tolerance;
+        converged = search.distance <= settings.tolerance && instants.are_tight();
         if converged {
             break;
         }
+        instants.after(search.distance);
         map.correct(&run.contact, &mut update);
         search.advance(reached.missing / run.scale, &update, &map.weights);
     }

@@ -32,7 +32,7 @@
 //!     period_s: 1.0,
 //!     steps: 40,
 //! };
-//! let settings = SteadySettings { tolerance: 1e-6, max_cycles: 100 };
+//! let settings = SteadySettings { tolerance: 1e-6, max_cycles: 100, is_quick: true };
 //! let found = find(&mut march, &cycle, None, settings, &|| false)?;
 //! assert!(found.converged && found.cycles < 20);
 //! # Ok(())
@@ -41,6 +41,7 @@
 
 mod anderson;
 mod correction;
+mod instants;
 mod iteration;
 mod newton;
 mod remaining;

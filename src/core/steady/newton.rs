@@ -213,6 +213,7 @@ mod tests {
     const SETTINGS: SteadySettings = SteadySettings {
         tolerance: 1e-8,
         max_cycles: 200,
+        is_quick: true,
     };
 
     #[test]

@@ -22,8 +22,6 @@ pub(super) use problem::{Elastic, InstantOfCells, IterateState, Scratches, Work}
 pub(super) use spans::over_blocks;
 use spans::{OfBlocks, Run, Spans};
 
-/// Steps over which a gap may be carried along by recursion before rounding has piled up in it.
-pub(super) const FRESH_STEPS: usize = 20;
 /// Steps after which the residual must have halved.
 const PATIENCE: usize = 40;
 /// Steps on one contact at most.
@@ -255,8 +253,11 @@ impl ActiveSet {
             let Some(step) = self.step_length(problem, beta, scratch)? else {
                 return Ok(false);
             };
-            work.count_step();
-            (has_negative, least_outside_m) = self.advance(problem.compliance_per_pa, step);
+            work.steps += 1;
+            let largest_m;
+            (has_negative, least_outside_m, largest_m) =
+                self.advance(problem.compliance_per_pa, step);
+            work.count_change(largest_m);
             let waits = waits && inner + 1 < STEPS_PER_CONTACT;
             if has_negative && !waits {
                 self.empty_negative(problem, scratch, work)?;
@@ -415,9 +416,9 @@ impl ActiveSet {
         Ok((curvature > 0.0 && step.is_finite()).then_some(step))
     }
 
-    /// Moves pressure and gap along the direction. Returns whether a pressure has turned negative, and the least gap (m) outside the
-    /// contact, before the approach is taken off.
-    fn advance(&mut self, compliance_per_pa: f64, step: f64) -> (bool, f64) {
+    /// Moves pressure and gap along the direction. Returns whether a pressure has turned negative, the least gap (m) outside the contact,
+    /// before the approach is taken off, and the largest change of a gap (m).
+    fn advance(&mut self, compliance_per_pa: f64, step: f64) -> (bool, f64, f64) {
         let lift = step * compliance_per_pa;
         let (direction, image) = (&self.direction, &self.image);
         let window = [&mut self.gap_m[..], &mut self.pressure[..]];
@@ -425,9 +426,9 @@ impl ActiveSet {
             .contact
             .each(window, [], |block, [gap_m, pressure], []| {
                 let direction = &direction[block.contact.clone()];
-                for (gap, image) in gap_m.iter_mut().zip(&image[block.window.clone()]) {
-                    *gap += lift * image;
-                }
+                let image = &image[block.window.clone()];
+                add_scaled(gap_m, lift, image);
+                let largest = -least_of(image, |image| -image.abs());
                 let mut lowest = f64::INFINITY;
                 for Run { window, contact } in block.runs() {
                     let pressure = &mut pressure[window];
@@ -437,9 +438,10 @@ impl ActiveSet {
                     lowest = lowest.min(least(pressure));
                 }
                 let outside = block.others().map(|cells| least(&gap_m[cells]));
-                [lowest, outside.fold(f64::INFINITY, f64::min)]
+                [lowest, outside.fold(f64::INFINITY, f64::min), -largest]
             });
-        (found.least(0) < 0.0, found.least(1))
+        let largest_m = lift.abs() * -found.least(2);
+        (found.least(0) < 0.0, found.least(1), largest_m)
     }
 
     /// Takes cells of negative pressure out of the contact, keeping the load, and follows with the gap.
@@ -478,14 +480,15 @@ impl ActiveSet {
                 []
             });
         (problem.elastic).displace(&self.field, &mut self.image, scratch)?;
-        work.carried += 1;
-        work.convolutions += 1;
         let (image, lift) = (&self.image, problem.compliance_per_pa);
-        self.contact
+        let found = self
+            .contact
             .each([&mut self.gap_m], [], |block, [gap_m], []| {
-                add_scaled(gap_m, lift, &image[block.window.clone()]);
-                []
+                let image = &image[block.window.clone()];
+                add_scaled(gap_m, lift, image);
+                [least_of(image, |image| -image.abs())]
             });
+        work.count_change(lift * -found.least(0));
         Ok(())
     }
 }

@@ -11,11 +11,12 @@
 //!               spectra of windows that the contact has outgrown                                          2
 //! period        gap, and that under the history                                                            2
 //! operator      spectrum and work space on the grid filled up with zeros (period: on the grid itself)      3 (1.25)
+//!               the same in single precision, for changes of a gap                                         1.5 (0.625)
 //! inverse       the same on the grid itself, in single precision                                           0.625
 //! map           heights of the surface, of rough ones and those of files                                   1
 //! ```
 //!
-//! Of a quarter of cells, the operators take 6 and 1 fields. A checkpoint is written from where all these are. Not counted are the fields of the safeguard, should it ever be needed (a fifth more).
+//! Of a quarter of cells, the operators take 6, 3 and 1 fields. A checkpoint is written from where all these are. Not counted are the fields of the safeguard, should it ever be needed (a fifth more).
 
 use super::convolution::numbers_of_operators;
 use super::grid::Grid;
@@ -52,6 +53,7 @@ impl CellField {
         };
         let map = if self.is_map { whole } else { 0 };
         let doubles = (OF_ALL + engine + branches) * cells + map + exact;
-        (size_of::<f64>() * doubles + size_of::<f32>() * inverse) as u64
+        let singles = exact + inverse;
+        (size_of::<f64>() * doubles + size_of::<f32>() * singles) as u64
     }
 }

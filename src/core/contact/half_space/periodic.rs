@@ -13,9 +13,7 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::active_set::{
-    ActiveSet, Elastic, FRESH_STEPS, InstantOfCells, Scratches, Work, over_blocks,
-};
+use super::active_set::{ActiveSet, Elastic, InstantOfCells, Scratches, Work, over_blocks};
 use super::convolution::ConvolutionError;
 pub use super::convolution::PeriodicOperator;
 use super::grid::Grid;
@@ -131,8 +129,7 @@ impl Periodic {
             let fields = &mut self.fields;
             let scratch = &mut self.scratches.convolution;
             (self.operator).apply(&fields.pressure, &mut fields.image, scratch)?;
-            work.convolutions += 1;
-            work.carried = 0;
+            work.count_fresh_gap();
             let lifted = fields.image.iter().zip(&self.free_gap_m);
             for (gap, (image, free)) in fields.gap_m.iter_mut().zip(lifted) {
                 *gap = free + compliance_per_pa * image;
@@ -155,10 +152,10 @@ impl Periodic {
             let steps = self.settings.max_iterations;
             let solved = fields.solve(&problem, steps, &mut self.scratches, work)?;
             pressure.copy_from_slice(&fields.pressure);
-            if solved.is_none() || work.carried <= FRESH_STEPS {
+            if solved.is_none_or(|state| work.is_exact(&state, problem.tolerance)) {
                 return Ok(solved.map(|state| state.approach_m));
             }
-            // Rounding has piled up in a gap carried along by recursion: judge a fresh one.
+            // Single precision has piled up in a gap carried along by recursion: judge a fresh one.
         }
     }
 
@@ -206,7 +203,7 @@ impl Elastic for Period<'_> {
         displacement: &mut [f64],
         scratch: &mut Scratches,
     ) -> Result<(), ConvolutionError> {
-        (self.operator).apply(pressure, displacement, &mut scratch.convolution)
+        (self.operator).apply_nearly(pressure, displacement, &mut scratch.changes)
     }
 
     fn precondition(
@@ -243,6 +240,10 @@ impl Engine for Periodic {
         true
     }
 
+    fn tolerance(&self) -> Option<f64> {
+        Some(self.settings.tolerance)
+    }
+
     fn tolerate(&mut self, tolerance: f64) {
         self.settings.tolerance = tolerance;
     }
@@ -267,10 +268,7 @@ impl Engine for Periodic {
             }
         };
         let area_m2 = self.operator.grid().cell_area_m2();
-        let mut work = Work {
-            interrupt: self.interrupt.clone(),
-            ..Work::default()
-        };
+        let mut work = Work::until(self.interrupt.clone());
         let scratch = &mut self.scratches.convolution;
         let displace = |q: &[f64], u: &mut [f64]| self.operator.apply(q, u, scratch);
         let (gap_m, free_gap_m) = (&self.gap_m, &mut self.free_gap_m);

@@ -319,6 +319,10 @@ impl Engine for HalfSpace {
         true
     }
 
+    fn tolerance(&self) -> Option<f64> {
+        Some(self.settings.tolerance)
+    }
+
     fn tolerate(&mut self, tolerance: f64) {
         self.settings.tolerance = tolerance;
     }
@@ -333,10 +337,7 @@ impl Engine for HalfSpace {
         pressure: &mut [f64],
     ) -> Result<Solution, ContactError> {
         let prescribed = instant.prescribed.check()?;
-        let mut work = Work {
-            interrupt: self.interrupt.clone(),
-            ..Work::default()
-        };
+        let mut work = Work::until(self.interrupt.clone());
         let found = self.find(instant, prescribed, pressure, &mut work);
         self.convolutions += work.convolutions as u64;
         let found = found?;

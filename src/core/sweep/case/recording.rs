@@ -26,20 +26,25 @@ pub(super) struct Recording {
 }
 
 impl Recording {
-    /// Nothing recorded yet of a cycle on this many nodes and in this many steps.
-    pub fn new(contact: &Contact<'_>, nodes: usize, steps: usize) -> Self {
+    /// Nothing recorded yet of a cycle in this many steps, which begins where the march stands.
+    pub fn new(
+        contact: &Contact<'_>,
+        march: &mut March<'_>,
+        steps: usize,
+    ) -> Result<Self, ContactError> {
+        let nodes = march.pressure().len();
         let step_s = contact.period_s() / steps as f64;
         let (everything, numbers) = (Wanted::Everything, Wanted::Numbers);
         let is_transient = contact.cycle.at_cycle.is_some();
-        Self {
+        Ok(Self {
             samples: Loop::default(),
-            dissipation: Dissipation::new(contact.compliance, nodes, step_s, contact.time_rule),
+            dissipation: march.dissipation(step_s)?,
             pressures: (contact.wanted >= everything)
                 .then(|| Pressures::new(&contact.condition.drive, steps)),
             tangent_radius: (contact.wanted >= numbers).then(|| TangentRadius::new(steps)),
             work: (contact.wanted >= everything && !is_transient)
                 .then(|| NodalWork::new(contact.compliance, nodes, step_s)),
-        }
+        })
     }
 
     /// Takes in the instant at the end of a step.
@@ -64,7 +69,7 @@ impl Recording {
         let with_numbers = self.tangent_radius.is_some();
         sample(march, &mut self.samples, time_s, with_numbers)?;
         match &mut self.work {
-            Some(work) => march.add_work(work),
+            Some(work) => march.add_work(work, &self.dissipation),
             None => Ok(()),
         }
     }

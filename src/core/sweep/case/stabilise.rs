@@ -318,6 +318,8 @@ impl Contact<'_> {
             let settings = SteadySettings {
                 tolerance: self.cycle.tolerance,
                 max_cycles,
+                // What is not found at once is looked for with all care.
+                is_quick: parts.is_empty(),
             };
             let found = steady::find(&mut march, &cycle, start, settings, &stop)?;
             self.check_interrupted()?;
@@ -357,6 +359,7 @@ impl Contact<'_> {
         let settings = SteadySettings {
             tolerance: self.cycle.tolerance,
             max_cycles: self.cycle.max_cycles,
+            is_quick: false,
         };
         let stop = || self.interrupt.load(Ordering::Relaxed);
         let found = steady::find_by_newton(march, &cycle, settings, &stop)?;

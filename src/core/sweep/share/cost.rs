@@ -4,7 +4,8 @@ use std::time::{Duration, Instant};
 
 use crate::engine::EngineKind;
 use crate::engine::{EngineBuilder, prescribed};
-use crate::history::March;
+use crate::history::{March, kept_bytes, rings};
+use crate::material::Creep;
 use crate::sweep::case::{Setup, SetupError};
 use crate::sweep::plan::{Case, Method, SweepPlan};
 use crate::sweep::share::trial::{self, Trial};
@@ -247,15 +248,15 @@ impl Setup {
     pub fn predicted_case_bytes(&self) -> u64 {
         let conditions = self.plan().conditions();
         let of_case = |condition| {
-            let branches = self.solid(condition).ok()?.compliance.branches().len();
+            let compliance = &self.solid(condition).ok()?.compliance;
             let nodes = self.plan().solver.nodes();
             let engines = self.engines(condition, nodes).ok()?;
-            Some(self.bytes_of_case(&engines, branches))
+            Some(self.bytes_of_case(&engines, compliance))
         };
         conditions.iter().filter_map(of_case).max().unwrap_or(0)
     }
 
-    fn bytes_of_case(&self, engines: &EngineBuilder, branches: usize) -> u64 {
+    fn bytes_of_case(&self, engines: &EngineBuilder, compliance: &Creep) -> u64 {
         /// Memories of the body that a search holds: start, best and its update, update and weights, iterate and update of the
         /// acceleration, and what that looks back on after five cycles, the usual number.
         const OF_SEARCH: usize = 5 + 2 + 2 * 3;
@@ -266,13 +267,17 @@ impl Setup {
         /// What the record says of a cell of the surface (bytes).
         const RECORD_BYTES: usize = 8;
         let plan = self.plan();
-        let nodes = engines.nodes();
+        let (nodes, branches) = (engines.nodes(), compliance.branches().len());
         let (memories, contact) = match plan.cycle.method {
             Method::Direct => (OF_SEARCH, CONTACT_BYTES * nodes),
             Method::March => (OF_MARCH, 0),
         };
         let searched = memories * nodes * branches * size_of::<f64>() + contact;
         let recorded = RECORD_BYTES * engines.surface_cells();
-        engines.predicted_memory_bytes(branches) + (searched + recorded) as u64
+        let guessed = match (engines.surface_cells(), plan.cycle.method) {
+            (0, _) | (_, Method::March) => 0,
+            _ => kept_bytes(plan.cycle.steps << usize::from(rings(compliance)), nodes),
+        };
+        engines.predicted_memory_bytes(branches) + (searched + recorded + guessed) as u64
     }
 }

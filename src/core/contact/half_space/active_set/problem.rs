@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use super::super::convolution::{ConvolutionError, Scratch};
+use super::super::convolution::{ConvolutionError, SINGLE, Scratch};
 use crate::contact::{ContactError, go_on};
 
 /// A surface in cells that yields in proportion to the pressure: of a window, or of a period.
@@ -12,7 +12,7 @@ pub(in super::super) trait Elastic {
     /// Cells of a row.
     fn cells_x(&self) -> usize;
 
-    /// The displacement (m per 1/Pa) of every cell by these pressures (Pa).
+    /// The displacement (m per 1/Pa) of every cell by these pressures (Pa), to [`SINGLE`].
     fn displace(
         &self,
         pressure: &[f64],
@@ -62,31 +62,52 @@ pub(in super::super) struct IterateState {
     pub(in super::super) reference_m: f64,
 }
 
-/// Work space of the two operators: double precision for what must be exact, single for what only shows
-/// the way.
+/// Work space of the operators: in double precision for a gap, in single for changes of it, and for what shows the way.
 #[derive(Debug, Clone, Default)]
 pub(in super::super) struct Scratches {
     pub(in super::super) convolution: Scratch,
+    pub(in super::super) changes: Scratch<f32>,
     pub(in super::super) preconditioner: Scratch<f32>,
 }
+
+/// The part of a tolerance that single precision may take up.
+const DRIFT: f64 = 0.1;
 
 /// Work counted, and whether to go on with it.
 #[derive(Debug, Clone, Default)]
 pub(in super::super) struct Work {
     pub(in super::super) steps: usize,
     pub(in super::super) convolutions: usize,
-    /// Steps since the gap was last computed afresh.
-    pub(in super::super) carried: usize,
+    /// What single precision may have left in the gap (m) since that was last computed afresh.
+    drift_m: f64,
     /// Set from outside to end the instant.
-    pub(in super::super) interrupt: Option<Arc<AtomicBool>>,
+    interrupt: Option<Arc<AtomicBool>>,
 }
 
 impl Work {
-    /// A step, and its convolution.
-    pub(super) fn count_step(&mut self) {
-        self.steps += 1;
-        self.carried += 1;
+    /// No work yet, which this flag ends.
+    pub(in super::super) fn until(interrupt: Option<Arc<AtomicBool>>) -> Self {
+        Self {
+            interrupt,
+            ..Self::default()
+        }
+    }
+
+    /// A gap computed afresh.
+    pub(in super::super) fn count_fresh_gap(&mut self) {
         self.convolutions += 1;
+        self.drift_m = 0.0;
+    }
+
+    /// A change of the gap, by this much (m) where it is largest, and its convolution.
+    pub(super) fn count_change(&mut self, largest_m: f64) {
+        self.convolutions += 1;
+        self.drift_m += SINGLE * largest_m;
+    }
+
+    /// Whether the gap is as exact as this state, which solves the instant to a tolerance, asks for.
+    pub(in super::super) fn is_exact(&self, state: &IterateState, tolerance: f64) -> bool {
+        self.drift_m <= DRIFT * tolerance * state.reference_m
     }
 
     /// [`ContactError::Interrupted`] where the instant is to end.

@@ -25,22 +25,22 @@ use super::periodic_row::{PeriodicRow, fill_up};
 use super::spectral::Row;
 
 /// Plans for rows of one length. Immutable; buffers are the caller's.
-pub(super) struct PaddedRow {
+pub(super) struct PaddedRow<T = f64> {
     /// A quarter of the padded length, `m/2`.
     quarter: usize,
     /// Of the unpadded row.
-    even: PeriodicRow,
-    odd_forward: Arc<dyn Fft<f64>>,
-    odd_inverse: Arc<dyn Fft<f64>>,
+    even: PeriodicRow<T>,
+    odd_forward: Arc<dyn Fft<T>>,
+    odd_inverse: Arc<dyn Fft<T>>,
     /// `w^j` for `j < m/2`.
-    twist: Vec<Complex<f64>>,
+    twist: Vec<Complex<T>>,
 }
 
-impl PaddedRow {
+impl<T: Precision> PaddedRow<T> {
     /// Plans for rows of `cells` values, padded to at least twice that.
     pub(super) fn new(cells: usize) -> Self {
         let quarter = fast_row_half(cells);
-        let (odd_forward, odd_inverse) = f64::complex(quarter);
+        let (odd_forward, odd_inverse) = T::complex(quarter);
         let angle = -PI / (2 * quarter) as f64;
         Self {
             quarter,
@@ -49,12 +49,13 @@ impl PaddedRow {
             odd_inverse,
             twist: (0..quarter)
                 .map(|j| Complex::cis(angle * j as f64))
+                .map(|w: Complex<f64>| Complex::new(T::of(w.re), T::of(w.im)))
                 .collect(),
         }
     }
 }
 
-impl Row<f64> for PaddedRow {
+impl<T: Precision> Row<T> for PaddedRow<T> {
     /// Length of the padded row, `2m`.
     fn period(&self) -> usize {
         4 * self.quarter
@@ -81,15 +82,15 @@ impl Row<f64> for PaddedRow {
     fn forward(
         &self,
         row: &[f64],
-        bins: &mut [Complex<f64>],
-        buffer: &mut [f64],
-        work: &mut [Complex<f64>],
+        bins: &mut [Complex<T>],
+        buffer: &mut [T],
+        work: &mut [Complex<T>],
     ) -> Result<(), FftError> {
         fill_up(row, buffer);
         let (even, odd) = bins.split_at_mut(self.quarter + 1);
         let (first, second) = buffer.split_at(self.quarter);
         for (((z, a), b), w) in odd.iter_mut().zip(first).zip(second).zip(&self.twist) {
-            *z = Complex::new(a * w.re + b * w.im, a * w.im - b * w.re);
+            *z = Complex::new(*a * w.re + *b * w.im, *a * w.im - *b * w.re);
         }
         self.odd_forward.process_with_scratch(odd, work);
         self.even.bins_of(buffer, even, work)
@@ -99,10 +100,10 @@ impl Row<f64> for PaddedRow {
     /// and the odd ones must have been multiplied by their weight.
     fn inverse(
         &self,
-        bins: &mut [Complex<f64>],
+        bins: &mut [Complex<T>],
         row: &mut [f64],
-        buffer: &mut [f64],
-        work: &mut [Complex<f64>],
+        buffer: &mut [T],
+        work: &mut [Complex<T>],
     ) -> Result<(), FftError> {
         let (even, odd) = bins.split_at_mut(self.quarter + 1);
         self.even.period_of(even, buffer, work)?;
@@ -112,17 +113,17 @@ impl Row<f64> for PaddedRow {
         let (first, second) = buffer.split_at(self.quarter);
         let terms = odd.iter().zip(&self.twist);
         for ((u, even), (z, w)) in row_first.iter_mut().zip(first).zip(terms) {
-            *u = even + (z.re * w.re + z.im * w.im);
+            *u = (*even + (z.re * w.re + z.im * w.im)).to_double();
         }
         let terms = odd.iter().zip(&self.twist);
         for ((u, even), (z, w)) in row_second.iter_mut().zip(second).zip(terms) {
-            *u = even - (z.im * w.re - z.re * w.im);
+            *u = (*even - (z.im * w.re - z.re * w.im)).to_double();
         }
         Ok(())
     }
 }
 
-impl FrequencyPerBin<f64> for PaddedRow {
+impl<T: Precision> FrequencyPerBin<T> for PaddedRow<T> {
     /// Frequency of a bin as a real even function sees it, that is between 0 and `m`, and how often it occurs in the sum
     /// of the inverse transform as this type takes it.
     fn frequency_and_weight(&self, bin: usize) -> (usize, f64) {
@@ -130,7 +131,7 @@ impl FrequencyPerBin<f64> for PaddedRow {
             None => (2 * bin, 1.0),
             Some(l) => {
                 let frequency = 4 * l + 1;
-                (frequency.min(self.period() - frequency), 2.0)
+                (frequency.min(4 * self.quarter - frequency), 2.0)
             }
         }
     }
@@ -160,7 +161,7 @@ mod tests {
     #[test]
     fn bins_are_the_transform_of_the_padded_row() {
         for cells in LENGTHS {
-            let plan = PaddedRow::new(cells);
+            let plan = PaddedRow::<f64>::new(cells);
             let row = row(cells);
             assert!(plan.period() >= 2 * cells);
             for (bin, found) in transformed(&plan, &row).into_iter().enumerate() {
@@ -184,7 +185,7 @@ mod tests {
     #[test]
     fn forward_and_inverse_give_the_row_back() {
         for cells in LENGTHS {
-            let plan = PaddedRow::new(cells);
+            let plan = PaddedRow::<f64>::new(cells);
             let row = row(cells);
             let mut bins = transformed(&plan, &row);
             for (bin, value) in bins.iter_mut().enumerate() {
@@ -205,7 +206,7 @@ mod tests {
     #[test]
     fn every_odd_frequency_is_kept_once() {
         for cells in LENGTHS {
-            let plan = PaddedRow::new(cells);
+            let plan = PaddedRow::<f64>::new(cells);
             let mut frequencies: Vec<usize> = (0..plan.bins())
                 .map(|bin| plan.frequency_and_weight(bin).0)
                 .collect();

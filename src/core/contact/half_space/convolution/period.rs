@@ -17,6 +17,8 @@ use crate::contact::half_space::grid::Grid;
 pub struct PeriodicOperator {
     grid: Grid,
     product: SpectralProduct,
+    /// The same in single precision.
+    nearly: SpectralProduct<f32>,
     /// |q|/2, and for the mean as for the longest wave.
     inverse: SpectralProduct<f32>,
 }
@@ -44,16 +46,18 @@ impl PeriodicOperator {
         let longest_per_m = wave_number(1, 0).min(wave_number(0, 1));
         // Transforms there and back multiply by the number of cells.
         let cells = grid.cells() as f64;
-        let spectrum = |at: &dyn Fn(f64) -> f64| {
+        let spectrum = |at: &dyn Fn(f64) -> f64| -> Vec<f64> {
             let waves = (0..=nx / 2).flat_map(|kx| (0..=ny / 2).map(move |ky| (kx, ky)));
             waves
                 .map(|(kx, ky)| at(wave_number(kx, ky)) / cells)
                 .collect()
         };
+        // The mean is left out.
+        let yields = spectrum(&|q| if q > 0.0 { 2.0 / q } else { 0.0 });
         Self {
             grid,
-            // The mean is left out.
-            product: product(&grid, spectrum(&|q| if q > 0.0 { 2.0 / q } else { 0.0 })),
+            nearly: product(&grid, yields.clone()),
+            product: product(&grid, yields),
             inverse: product(&grid, spectrum(&|q| 0.5 * q.max(longest_per_m))),
         }
     }
@@ -71,6 +75,17 @@ impl PeriodicOperator {
     ) -> Result<(), ConvolutionError> {
         let rows = 0..self.grid.cells_y();
         self.product.apply(pressure, displacement, rows, scratch)
+    }
+
+    /// The same in single precision, to [`SINGLE`](super::SINGLE).
+    pub(in super::super) fn apply_nearly(
+        &self,
+        pressure: &[f64],
+        displacement: &mut [f64],
+        scratch: &mut Scratch<f32>,
+    ) -> Result<(), ConvolutionError> {
+        let rows = 0..self.grid.cells_y();
+        self.nearly.apply(pressure, displacement, rows, scratch)
     }
 
     /// The pressures (Pa) that lift the surface like this (m per 1/Pa) in these rows, if their mean counts for as much as the longest

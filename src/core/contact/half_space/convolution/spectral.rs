@@ -211,7 +211,6 @@ impl<T: Precision> SpectralProduct<T> {
         (self.row.period(), self.column.period())
     }
 
-    #[cfg(test)]
     pub(super) fn spectrum(&self) -> &[T] {
         &self.spectrum
     }

@@ -3,9 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::super::active_set::{
-    Elastic, FRESH_STEPS, InstantOfCells, IterateState, Scratches, Work,
-};
+use super::super::active_set::{Elastic, InstantOfCells, IterateState, Scratches, Work};
 use super::super::convolution::{Convolution, ConvolutionError, WindowOperators};
 use super::super::influence::Influence;
 use super::super::instant::{Imposed, ROUNDING, hertz_guess, start};
@@ -41,8 +39,8 @@ impl Elastic for Window<'_> {
         displacement: &mut [f64],
         scratch: &mut Scratches,
     ) -> Result<(), ConvolutionError> {
-        let scratch = &mut scratch.convolution;
-        (self.operators.convolution).apply(pressure, displacement, scratch)
+        let scratch = &mut scratch.changes;
+        (self.operators.convolution).apply_nearly(pressure, displacement, scratch)
     }
 
     fn precondition(
@@ -195,8 +193,7 @@ impl HalfSpace {
         };
         loop {
             let largest_m = self.lift_gap(windows, instant.compliance_per_pa)?;
-            work.convolutions += 1;
-            work.carried = 0;
+            work.count_fresh_gap();
             let level_m = imposed.approach_m().unwrap_or(largest_m).abs();
             let problem = InstantOfCells {
                 elastic: &elastic,
@@ -212,10 +209,10 @@ impl HalfSpace {
             let solved = self
                 .fields
                 .solve(&problem, steps, &mut self.scratches, work)?;
-            if solved.is_none() || work.carried <= FRESH_STEPS {
+            if solved.is_none_or(|state| work.is_exact(&state, problem.tolerance)) {
                 return Ok(solved);
             }
-            // Rounding has piled up in a gap carried along by recursion: judge a fresh one.
+            // Single precision has piled up in a gap carried along by recursion: judge a fresh one.
         }
     }
 
