@@ -22,6 +22,9 @@ impl Instants {
     const FROM_OTHER_STEPS: f64 = 1e-3;
     /// What a cycle leaves of the distance of the one before, at the least.
     const PROGRESS: f64 = 0.01;
+    /// By how many times what is expected a cycle may be off. Guesses from the cycle before may be within the tolerance as they are, all on
+    /// one side of the solution: then a loop does not close, however often it is gone round.
+    const TOO_SLOW: f64 = 10.0;
     /// Where the instants leave a hundredth of the distance, since the tolerance given leaves a tenth of that of the stabilised cycle
     /// ([`crate::engine::instant_tolerance::SHARE`]). With three times as much searches took a cycle more, with a third more iterations.
     const SHARE: f64 = 0.1;
@@ -74,9 +77,13 @@ impl Instants {
         self.looser() <= Self::AT_THE_END
     }
 
-    /// After a cycle of this distance.
+    /// After a cycle of this distance that does not end the search.
     pub(super) fn after(&mut self, distance: f64) {
-        self.quick_cycles = self.quick_cycles.saturating_sub(1);
+        let has_slowed = self.are_tight() && distance > Self::TOO_SLOW * self.expected;
+        self.quick_cycles = match has_slowed {
+            true => 0,
+            false => self.quick_cycles.saturating_sub(1),
+        };
         self.expected = match self.quick_cycles > 0 {
             true => Self::PROGRESS * distance,
             false => 0.0,
@@ -110,10 +117,14 @@ mod tests {
             instants.after(near);
             assert!((instants.looser() - 1.0).abs() < 1e-9 && instants.are_tight());
         }
+        // Once progress slows, the rest is done with care.
+        instants.after(1e-2);
+        instants.after(2e-3);
+        assert_eq!((instants.quick_cycles, instants.expected), (0, 0.0));
         // Nothing is looser than the loosest, but for what was given so.
         for (given, looser) in [(1e-5, 10.0), (1e-3, 1.0)] {
             instants.given = Some(given);
-            instants.after(f64::INFINITY);
+            instants.expected = f64::INFINITY;
             assert!((instants.looser() - looser).abs() < 1e-9);
         }
         // Springs are solved exactly: there is nothing to be tightened.

@@ -10,8 +10,9 @@ use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised};
 use crate::sweep::plan::Method;
 use crate::sweep::record::CaseResult;
 
-/// The tolerance of instants whose guesses are good, over that of others.
-const TIGHTER: f64 = 0.03;
+/// The tolerance of instants that begin at the same instant of the last cycle of a search, over that given: guesses that good may be within
+/// what is given as they are, all on one side of the solution. What an iteration leaves is far below it.
+const OF_GOOD_GUESSES: f64 = 0.03;
 
 /// Cycles of one case in one number of steps.
 pub(super) struct Cycles<'a> {
@@ -110,11 +111,9 @@ impl<'a> Cycles<'a> {
     pub fn record(&mut self, march: &mut March<'_>) -> Result<Option<CaseResult>, CaseError> {
         let contact = self.contact;
         let mut recording = Recording::new(contact, march, self.steps)?;
-        // Guesses from the last cycle of a search may be within the tolerance, all on the same side of the solution; what an iteration
-        // leaves is far below it.
         let given = march.tolerance().filter(|_| march.knows_last_cycle());
         if let Some(given) = given {
-            march.tolerate(TIGHTER * given);
+            march.tolerate(OF_GOOD_GUESSES * given);
         }
         let ended = self.run(march, Some(&mut recording));
         if let Some(given) = given {

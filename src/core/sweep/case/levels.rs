@@ -1,6 +1,7 @@
 //! A case at its resolution, and at coarser ones that tell its errors: in steps on the same nodes, and on fewer nodes.
 
 use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::adhesive::Layout;
@@ -30,6 +31,9 @@ pub(super) struct Levels<'a> {
     pub effort: &'a mut Effort,
     /// Where the edges of an attracted contact go, and what its springs remembered last: other numbers of springs begin there.
     pub attracted: RefCell<Option<(Layout, State)>>,
+    /// Memories of cycles found where an accuracy is asked for, by nodes and by how often their domain was enlarged: more steps begin
+    /// there.
+    pub found: RefCell<BTreeMap<(usize, usize), Vec<f64>>>,
 }
 
 /// What a case has taken so far, whatever becomes of it.
@@ -300,8 +304,8 @@ impl Levels<'_> {
         (fewer, steps): (&[usize], usize),
         domain: &mut (f64, usize),
     ) -> Result<Level, CaseError> {
+        let is_own = std::ptr::eq(contact.compliance, &raw const contact.solid.compliance);
         if let Some(attraction) = contact.attraction() {
-            let is_own = std::ptr::eq(contact.compliance, &raw const contact.solid.compliance);
             let before = is_own.then(|| self.attracted.take()).flatten();
             let (level, left) = contact.attracted(attraction, nodes, (fewer, steps), before)?;
             if is_own {
@@ -314,7 +318,9 @@ impl Levels<'_> {
         loop {
             let mut engine = engines.engine(growths)?;
             *domain = (engines.enlarged_half_width_m(growths).0, growths);
-            match self.on_engine(contact, engine.as_mut(), fewer, steps) {
+            let known = || self.found.borrow_mut().remove(&(nodes, growths));
+            let before = is_own.then(known).flatten();
+            match self.on_engine(contact, engine.as_mut(), (fewer, steps), before.as_deref()) {
                 Err(error @ CaseError::Contact(ContactError::ReachedEdge { .. })) => {
                     match engines.not_enlarged(growths) {
                         Some(why) => return Err(why.into()),
@@ -323,8 +329,12 @@ impl Levels<'_> {
                     }
                 }
                 ended => {
-                    return ended
-                        .map(|(coarser, finest)| Level::new(nodes, (steps, finest), coarser));
+                    let (coarser, finest) = ended?;
+                    if is_own && contact.cycle.accuracy.is_some() && finest.result.is_some() {
+                        let memory = finest.memory.clone();
+                        self.found.borrow_mut().insert((nodes, growths), memory);
+                    }
+                    return Ok(Level::new(nodes, (steps, finest), coarser));
                 }
             }
         }
@@ -335,8 +345,8 @@ impl Levels<'_> {
         &self,
         contact: &Contact<'_>,
         engine: &mut dyn Engine,
-        fewer: &[usize],
-        steps: usize,
+        (fewer, steps): (&[usize], usize),
+        before: Option<&[f64]>,
     ) -> Result<InSteps, CaseError> {
         if let Some(flag) = &self.setup.interrupt {
             engine.interrupted_by(Arc::clone(flag));
@@ -352,7 +362,7 @@ impl Levels<'_> {
             && self.setup.plan.solver.tolerance.is_none()
             && let Some(tighter) = instant_tolerance::tighter(needed)
         {
-            match contact.by_search_alone(engine, fewer, steps) {
+            match contact.by_search_alone(engine, (fewer, steps), before) {
                 Ok(Some(found)) => return Ok(found),
                 Ok(None) => engine.tolerate(tighter),
                 // No tolerance of the cycle's will do: it is marched as it is.
@@ -360,8 +370,8 @@ impl Levels<'_> {
                 Err(error) => return Err(error),
             }
         }
-        let coarser = contact.in_fewer_steps(engine, fewer)?;
-        let finest = contact.stabilise(engine, steps, start_of(&coarser))?;
+        let coarser = contact.in_fewer_steps(engine, fewer, before)?;
+        let finest = contact.stabilise(engine, steps, start_of(&coarser, before))?;
         Ok((coarser, finest))
     }
 }

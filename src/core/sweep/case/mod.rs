@@ -366,6 +366,7 @@ impl Setup {
             contact,
             effort,
             attracted: RefCell::default(),
+            found: RefCell::default(),
         };
         let mut found = match cycle.accuracy {
             Some(accuracy) => levels.within_accuracy(accuracy)?,

@@ -186,12 +186,13 @@ impl Contact<'_> {
         }
     }
 
-    /// The stabilised cycle in each of these numbers of steps, every one searched from the memory of the last. They serve the error bars of the
-    /// one in more steps; what fails in fewer steps may succeed in more.
+    /// The stabilised cycle in each of these numbers of steps, every one searched from the memory of the last, the first from one found before,
+    /// if any was. They serve the error bars of the one in more steps; what fails in fewer steps may succeed in more.
     pub fn in_fewer_steps(
         &self,
         engine: &mut dyn Engine,
         steps: &[usize],
+        before: Option<&[f64]>,
     ) -> Result<Vec<(usize, Stabilised)>, CaseError> {
         let contact = Contact {
             wanted: self.wanted.min(Wanted::Numbers),
@@ -199,7 +200,7 @@ impl Contact<'_> {
         };
         let mut solved: Vec<(usize, Stabilised)> = Vec::with_capacity(steps.len());
         for &count in steps {
-            let cycle = match contact.stabilise(engine, count, start_of(&solved)) {
+            let cycle = match contact.stabilise(engine, count, start_of(&solved, before)) {
                 Err(error) if error.may_be_of_the_resolution() => continue,
                 ended => ended?,
             };
@@ -217,19 +218,19 @@ impl Contact<'_> {
     pub fn by_search_alone(
         &self,
         engine: &mut dyn Engine,
-        fewer: &[usize],
-        steps: usize,
+        (fewer, steps): (&[usize], usize),
+        before: Option<&[f64]>,
     ) -> Result<Option<InSteps>, CaseError> {
         let contact = Contact {
             marches_at_last: self.cycle.method == Method::March,
             ..*self
         };
-        let coarser = contact.in_fewer_steps(engine, fewer)?;
+        let coarser = contact.in_fewer_steps(engine, fewer, before)?;
         let is_found = |(_, cycle): &(usize, Stabilised)| cycle.result.is_some();
         if !contact.marches_at_last && coarser.last().is_some_and(|cycle| !is_found(cycle)) {
             return Ok(None);
         }
-        let finest = contact.stabilise(engine, steps, start_of(&coarser))?;
+        let finest = contact.stabilise(engine, steps, start_of(&coarser, before))?;
         let all_found = coarser.len() == fewer.len() && coarser.iter().all(is_found);
         Ok((all_found && finest.result.is_some()).then_some((coarser, finest)))
     }
@@ -408,8 +409,13 @@ impl Contact<'_> {
 /// The stabilised cycles in fewer steps, and the one in the most.
 pub(super) type InSteps = (Vec<(usize, Stabilised)>, Stabilised);
 
-/// Where the search in more steps begins: the memory of the last cycle found in fewer.
-pub(super) fn start_of(coarser: &[(usize, Stabilised)]) -> Option<Vec<f64>> {
-    let (_, last) = coarser.last()?;
-    last.result.as_ref().map(|_| last.memory.clone())
+/// Where the search in more steps begins: the memory of the last cycle found in fewer, or that of one found before on the same nodes.
+pub(super) fn start_of(
+    coarser: &[(usize, Stabilised)],
+    before: Option<&[f64]>,
+) -> Option<Vec<f64>> {
+    match coarser.last() {
+        Some((_, last)) => last.result.as_ref().map(|_| last.memory.clone()),
+        None => before.map(<[f64]>::to_vec),
+    }
 }
