@@ -119,7 +119,7 @@ mod tests {
             other
                 .elastic_displacement(&hereditary, &mut expected)
                 .unwrap();
-            let found = dissipation.displacement_m();
+            let found = dissipation.displaced.of_hereditary_m();
             let largest = expected.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
             let offs = expected.iter().zip(&found).map(|(a, b)| (a - b).abs());
             let off = offs.fold(0.0, f64::max) / largest;

@@ -12,8 +12,8 @@
 
 use super::displaced::Displaced;
 use super::memory::Memory;
-use super::rule::{StepWeights, TimeRule};
-use crate::contact::{ContactError, Engine, sums};
+use super::rule::TimeRule;
+use crate::contact::{Engine, sums};
 
 /// Energies of a number of equal steps, added up.
 pub struct Dissipation {
@@ -21,7 +21,7 @@ pub struct Dissipation {
     branches: Vec<Branch>,
     rule: TimeRule,
     /// What the state of the march displaces.
-    displaced: Displaced,
+    pub(super) displaced: Displaced,
     /// d at the start of the step. Branch-major.
     deviation: Vec<f64>,
     /// At the start of the step, and at that of its last stage, which is at this fraction of it.
@@ -41,23 +41,6 @@ impl Pressed {
     fn set(&mut self, pressure: &[f64], displaced: &Displaced) {
         pressure.clone_into(&mut self.pressure);
         displaced.of_pressure.clone_into(&mut self.displacement);
-    }
-
-    /// Its fields, each with another's and a third's of the same kind.
-    fn beside<'a>(
-        &'a mut self,
-        other: &'a mut Self,
-        pressure: &'a [f64],
-        displacement: &'a [f64],
-    ) -> [(&'a mut [f64], &'a mut [f64], &'a [f64]); 2] {
-        [
-            (&mut self.pressure, &mut other.pressure, pressure),
-            (
-                &mut self.displacement,
-                &mut other.displacement,
-                displacement,
-            ),
-        ]
     }
 }
 
@@ -97,11 +80,6 @@ impl Dissipation {
         self.branches.iter().map(|b| b.energy_j).collect()
     }
 
-    /// The displacement by the hereditary integral (m) of the instant last followed.
-    pub(super) fn displacement_m(&self) -> Vec<f64> {
-        self.displaced.of_hereditary_m()
-    }
-
     /// Takes in the state at the start of a step.
     pub(super) fn begin(&mut self, engine: &dyn Engine, pressure: &[f64], memory: &Memory) {
         let displaced = &mut self.displaced;
@@ -122,33 +100,30 @@ impl Dissipation {
         self.last.set(pressure, &self.displaced);
     }
 
-    /// Follows the march to the end of a stage; returns the convolutions that took.
-    pub(super) fn follow(
-        &mut self,
-        engine: &mut dyn Engine,
-        step: &StepWeights,
-        pressure: &[f64],
-    ) -> Result<usize, ContactError> {
-        self.displaced.follow(engine, step, pressure)
-    }
-
     /// Takes in the pressure at the end of a step. Within the step the pressure is linear through its values at the start of the last
     /// stage and at the end.
     pub(super) fn end(&mut self, engine: &dyn Engine, pressure: &[f64]) {
         // What is at the start of the last stage becomes the change over the step; at the start, by how much more the line has there.
-        let displacement = &self.displaced.of_pressure;
-        let fields = (self.last).beside(&mut self.start, pressure, displacement);
-        for (last, start, end) in fields {
+        let (rule, passed) = (self.rule, self.passed);
+        let line = |last: &mut [f64], start: &mut [f64], end: &[f64]| {
             for ((last, start), end) in last.iter_mut().zip(start).zip(end) {
                 // Under the constant rule the pressure stays as it was until the step is over.
-                let change = match self.rule {
-                    TimeRule::Linear => (end - *last) / (1.0 - self.passed),
+                let change = match rule {
+                    TimeRule::Linear => (end - *last) / (1.0 - passed),
                     TimeRule::Constant => 0.0,
                 };
-                *start = *last - self.passed * change - *start;
+                *start = *last - passed * change - *start;
                 *last = change;
             }
-        }
+        };
+        let (last, start) = (&mut self.last, &mut self.start);
+        line(&mut last.pressure, &mut start.pressure, pressure);
+        let displacement = &self.displaced.of_pressure;
+        line(
+            &mut last.displacement,
+            &mut start.displacement,
+            displacement,
+        );
         let (change, more) = (&self.last, &self.start);
         let changing = engine.work(&change.pressure, &change.displacement);
         let mixed = engine.work(&change.pressure, &more.displacement);

@@ -89,13 +89,6 @@ impl Instants {
             false => 0.0,
         };
     }
-
-    /// After the search, however it ended.
-    pub(super) fn restore(&self, march: &mut March<'_>) {
-        if let Some(given) = self.given {
-            march.tolerate(given);
-        }
-    }
 }
 
 #[cfg(test)]

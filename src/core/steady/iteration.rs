@@ -63,10 +63,7 @@ pub fn find(
     settings: SteadySettings,
     stop: &dyn Fn() -> bool,
 ) -> Result<Steady, ContactError> {
-    let mut instants = Instants::new(march, start.is_some(), settings);
-    let found = find_by(march, (cycle, stop), start, settings, &mut instants);
-    instants.restore(march);
-    found
+    march.keeping_tolerance(|march| find_by(march, (cycle, stop), start, settings))
 }
 
 fn find_by(
@@ -74,8 +71,8 @@ fn find_by(
     (cycle, stop): (&Cycle<'_>, &dyn Fn() -> bool),
     start: Option<Vec<f64>>,
     settings: SteadySettings,
-    instants: &mut Instants,
 ) -> Result<Steady, ContactError> {
+    let mut instants = Instants::new(march, start.is_some(), settings);
     let map = CycleMap::new(march, cycle, stop);
     let mut search = Search::begin(march, cycle, start)?;
     let mut converged = false;

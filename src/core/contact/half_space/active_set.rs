@@ -20,7 +20,7 @@ use crate::contact::sums::{add_scaled, dot, least, least_of, sum, sums};
 use problem::Waiting;
 pub(super) use problem::{Elastic, InstantOfCells, IterateState, Scratches, Work};
 pub(super) use spans::over_blocks;
-use spans::{OfBlocks, Run, Spans};
+use spans::{Run, Spans, copy};
 
 /// Steps after which the residual must have halved.
 const PATIENCE: usize = 40;
@@ -282,7 +282,7 @@ impl ActiveSet {
                 []
             });
         self.apply_preconditioner(problem, scratch)?;
-        let sums = gather(&self.contact, &self.image, &mut self.constant);
+        let sums = self.contact.gather(&self.image, &mut self.constant);
         Ok(Some(sums.total(0)))
     }
 
@@ -364,7 +364,7 @@ impl ActiveSet {
     ) -> Result<(f64, f64), ContactError> {
         std::mem::swap(&mut self.preconditioned, &mut self.last);
         self.apply_preconditioner(problem, scratch)?;
-        let sums = gather(&self.contact, &self.image, &mut self.preconditioned);
+        let sums = (self.contact).gather(&self.image, &mut self.preconditioned);
         let share = constant_sum.map(|constant_sum| sums.total(0) / constant_sum);
         let (residual, last, constant) = (&self.residual, &self.last, &self.constant);
         let found = (self.contact).each([], [&mut self.preconditioned], |block, [], [z]| {
@@ -490,23 +490,5 @@ impl ActiveSet {
             });
         work.count_change(lift * -found.least(0));
         Ok(())
-    }
-}
-
-/// Writes a field of the window into one of the contact, and sums it.
-fn gather(contact: &Spans, window: &[f64], values: &mut [f64]) -> OfBlocks<1> {
-    contact.each([], [values], |block, [], [values]| {
-        let window = &window[block.window.clone()];
-        for run in block.runs() {
-            copy(&window[run.window], &mut values[run.contact]);
-        }
-        [sum(values)]
-    })
-}
-
-/// Runs are short: a call for each would take longer than the copy.
-fn copy(from: &[f64], to: &mut [f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
     }
 }

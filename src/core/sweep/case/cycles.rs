@@ -111,15 +111,14 @@ impl<'a> Cycles<'a> {
     pub fn record(&mut self, march: &mut March<'_>) -> Result<Option<CaseResult>, CaseError> {
         let contact = self.contact;
         let mut recording = Recording::new(contact, march, self.steps)?;
-        let given = march.tolerance().filter(|_| march.knows_last_cycle());
-        if let Some(given) = given {
-            march.tolerate(OF_GOOD_GUESSES * given);
-        }
-        let ended = self.run(march, Some(&mut recording));
-        if let Some(given) = given {
-            march.tolerate(given);
-        }
-        ended?;
+        march.keeping_tolerance(|march| {
+            if march.knows_last_cycle()
+                && let Some(given) = march.tolerance()
+            {
+                march.tolerate(OF_GOOD_GUESSES * given);
+            }
+            self.run(march, Some(&mut recording))
+        })?;
         if contact.cycle.at_cycle.is_none() && !self.is_within_tolerance() {
             return Ok(None);
         }

@@ -5,6 +5,8 @@
 
 use std::ops::Range;
 
+use crate::contact::sums::sum;
+
 /// Blocks of a large window at most.
 const BLOCKS: usize = 8;
 
@@ -266,6 +268,17 @@ impl Spans {
         both(these, those);
     }
 
+    /// Writes a field of the window into one of the contact, and sums it.
+    pub(super) fn gather(&self, window: &[f64], values: &mut [f64]) -> OfBlocks<1> {
+        self.each([], [values], |block, [], [values]| {
+            let window = &window[block.window.clone()];
+            for run in block.runs() {
+                copy(&window[run.window], &mut values[run.contact]);
+            }
+            [sum(values)]
+        })
+    }
+
     /// Number of cells.
     pub(super) fn cells(&self) -> usize {
         self.before.last().copied().unwrap_or(0)
@@ -277,6 +290,13 @@ impl Spans {
         let first = runs().next().map_or(0, |run| run.start / cells_x);
         let last = (self.found.iter().rev()).find_map(|found| found.runs.last());
         first..last.map_or(0, |run| run.end.div_ceil(cells_x))
+    }
+}
+
+/// Runs are short: a call for each would take longer than the copy.
+pub(super) fn copy(from: &[f64], to: &mut [f64]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
     }
 }
 
