@@ -203,6 +203,10 @@ pub fn used(kind: Option<Kind>, files: &[toml::Table]) -> BTreeSet<String> {
             (has("engine", "axisymmetric"), "axisymmetric engine"),
             (has("engine", "half-space"), "half-space engine"),
             (has("edge", "periodic"), "surface that repeats itself"),
+            (
+                has("shape", "height-map") || has("shape", "rough"),
+                "contact of many patches",
+            ),
             // The exact problem of a curve is solved on springs.
             (table.contains_key("curve"), "axisymmetric engine"),
             (

@@ -125,6 +125,26 @@ fn a_rough_surface_takes_few_iterations_and_has_the_answer_of_the_safe_way() {
     assert_same(&found, &expected);
     let peak = largest(exact.iter().copied());
     below!(largest_difference(&pressure, &exact), 1e-5 * peak);
+
+    let (found, pressure) = first_touch(&mut new().in_many_patches(), 4e-10, load).unwrap();
+    // 12 and 21 were seen.
+    assert!(found.iterations < 16 && found.convolutions < 30);
+    assert_same(&found, &expected);
+    below!(largest_difference(&pressure, &exact), 1e-5 * peak);
+}
+
+/// A map may be of anything.
+#[test]
+fn a_ball_taken_for_many_patches_takes_as_many_steps() {
+    let (load, approach) = (Prescribed::LoadN(LOAD_N), Prescribed::ApproachM(1e-6));
+    for (cells, control) in [(64, load), (150, load), (64, approach), (256, approach)] {
+        let new = || half_space(&ball(RADIUS_M), 2.0 * relaxed_radius_m(LOAD_N), cells);
+        let (one, _) = first_touch(&mut new(), 4e-10, control).unwrap();
+        let (many, _) = first_touch(&mut new().in_many_patches(), 4e-10, control).unwrap();
+        assert_same(&many, &one);
+        let counts = (many.iterations, one.iterations);
+        assert!(counts.0 <= counts.1 + 1, "{cells} {control:?} {counts:?}");
+    }
 }
 
 /// Two asperities of different height, off the middle.

@@ -203,7 +203,12 @@ fn from_a_hundredth_in_contact_to_all_but_a_thousandth_few_steps_find_what_the_s
         for (own, expected) in pressure.iter().zip(&expected) {
             below!((own - expected).abs(), 1e-6 * highest, "{what}");
         }
-        assert!(fast.iterations <= 60, "{what}: {}", fast.iterations);
+        println!(
+            "ITS {what} {part} {} {} safe {} {}",
+            fast.iterations, fast.convolutions, safe.iterations, safe.convolutions
+        );
+        // 7 to 20 were seen.
+        assert!(fast.iterations <= 24, "{what}: {}", fast.iterations);
         assert!(fast.convolutions < safe.convolutions, "{what}");
     }
     assert!(least < 0.02 && largest > 0.998, "{least} {largest}");
@@ -233,7 +238,7 @@ fn threads_share_an_instant_and_agree_to_the_last_bit() {
 }
 
 #[test]
-fn steps_grow_slowly_with_the_cells_of_a_rough_surface() {
+fn steps_hardly_grow_with_the_cells_of_a_rough_surface() {
     let steps = |cells: usize| {
         let (grid, gaps, slope) = self_affine(cells, 0.5, 7);
         let load_n = 0.34 * slope / COMPLIANCE * grid.cells() as f64 * grid.cell_area_m2();
@@ -244,7 +249,7 @@ fn steps_grow_slowly_with_the_cells_of_a_rough_surface() {
     };
     // Half in contact, where most cells come and go; Polonsky and Keer's take twice as many for every doubling.
     let (coarse, fine) = (steps(64), steps(512));
-    assert!(fine <= 4 * coarse && fine <= 60, "{coarse} {fine}");
+    assert!(fine <= 2 * coarse && fine <= 18, "{coarse} {fine}");
 }
 
 fn under_map(steps: usize, method: Method) -> CaseResult {

@@ -11,12 +11,14 @@
 //! Changes of the contact are not proved to end, so the number of steps without progress is bounded; what is then left to do
 //! is done by [`polonsky_keer`](super::polonsky_keer), which descends.
 
+mod continued;
 mod problem;
 mod spans;
 
 use super::instant::STANDING_OFF;
 use crate::contact::ContactError;
 use crate::contact::sums::{add_scaled, dot, least, least_of, sum, sums};
+use continued::Continued;
 use problem::Waiting;
 pub(super) use problem::{Elastic, InstantOfCells, IterateState, Scratches, Work};
 pub(super) use spans::over_blocks;
@@ -30,6 +32,7 @@ const STEPS_PER_CONTACT: usize = 50;
 const SHARE_BEFORE_JOINING: f64 = 0.2;
 /// Cells join that penetrate by this share of what the tolerance allows.
 const JOINING: f64 = 0.3;
+
 /// Fields of one value per cell.
 #[derive(Debug, Default)]
 pub(super) struct ActiveSet {
@@ -49,6 +52,8 @@ pub(super) struct ActiveSet {
     last: Vec<f64>,
     direction: Vec<f64>,
     constant: Vec<f64>,
+    /// What preconditions in a contact of many patches.
+    continued: Continued,
 }
 
 impl ActiveSet {
@@ -77,7 +82,7 @@ impl ActiveSet {
         work: &mut Work,
     ) -> Result<Option<IterateState>, ContactError> {
         let (mut best, mut best_at) = (f64::INFINITY, work.steps);
-        let mut waiting = Waiting::new(problem.waits);
+        let mut waiting = Waiting::new(problem.has_patches);
         self.misfit_m = 0.0;
         let steps = steps.min(problem.fast_steps);
         loop {
@@ -114,7 +119,7 @@ impl ActiveSet {
             problem
                 .elastic
                 .load(&self.pressure, &self.gap_m, problem.compliance_per_pa);
-        let cells_x = problem.elastic.cells_x();
+        let cells_x = problem.elastic.grid().cells_x();
         let (pressure, gap_m) = (&self.pressure, &self.gap_m);
         let lifted = over_blocks(pressure.len(), cells_x, |cells| {
             let rows = pressure[cells.clone()].chunks_exact(cells_x);
@@ -138,7 +143,7 @@ impl ActiveSet {
             ..IterateState::default()
         };
         let mut joining_m = JOINING * problem.tolerance * state.reference_m;
-        if problem.waits {
+        if problem.has_patches {
             // What penetrates less than the gaps inside are uncertain may not do so in the end.
             joining_m = joining_m.max(self.misfit_m);
         }
@@ -161,7 +166,7 @@ impl ActiveSet {
         state: &IterateState,
         joining_m: f64,
     ) -> (f64, f64, f64) {
-        let (cells_x, approach_m) = (problem.elastic.cells_x(), state.approach_m);
+        let (cells_x, approach_m) = (problem.elastic.grid().cells_x(), state.approach_m);
         let (pressure, gap_m) = (&self.pressure, &self.gap_m);
         let found = self
             .contact
@@ -267,13 +272,21 @@ impl ActiveSet {
         Ok(true)
     }
 
-    /// The preconditioned constant under load control, and its sum.
+    /// Under load control, the preconditioned constant and its sum. Weighs a contact of many patches.
     fn precondition_constant(
         &mut self,
         problem: &InstantOfCells<'_>,
         scratch: &mut Scratches,
     ) -> Result<Option<f64>, ContactError> {
-        if problem.target_sum.is_none() {
+        let is_loaded = problem.target_sum.is_some();
+        if problem.has_patches {
+            let grid = problem.elastic.grid();
+            let total = self
+                .continued
+                .weigh(&self.contact, grid, &mut self.constant)?;
+            return Ok(is_loaded.then_some(total));
+        }
+        if !is_loaded {
             return Ok(None);
         }
         self.contact
@@ -281,19 +294,26 @@ impl ActiveSet {
                 block.runs().for_each(|run| field[run.window].fill(1.0));
                 []
             });
-        self.apply_preconditioner(problem, scratch)?;
-        let sums = self.contact.gather(&self.image, &mut self.constant);
-        Ok(Some(sums.total(0)))
+        let total = self.apply_preconditioner(problem, scratch)?;
+        std::mem::swap(&mut self.constant, &mut self.preconditioned);
+        Ok(Some(total))
     }
 
-    /// The preconditioner applied to `field`, in the rows of `image` that have contact.
+    /// The preconditioner applied to `field`, in `preconditioned`; returns the sum of that.
     fn apply_preconditioner(
         &mut self,
         problem: &InstantOfCells<'_>,
         scratch: &mut Scratches,
-    ) -> Result<(), ContactError> {
-        let rows = self.contact.rows(problem.elastic.cells_x());
-        Ok((problem.elastic).precondition(&self.field, &mut self.image, rows, scratch)?)
+    ) -> Result<f64, ContactError> {
+        let (elastic, result) = (problem.elastic, &mut self.preconditioned);
+        if problem.has_patches {
+            let fields = (&mut self.field[..], &mut self.image[..]);
+            let of = &mut self.continued;
+            return Ok(of.precondition(&self.contact, elastic, fields, result, scratch)?);
+        }
+        let rows = self.contact.rows(elastic.grid().cells_x());
+        elastic.precondition(&self.field, &mut self.image, rows, scratch)?;
+        Ok(self.contact.gather(&self.image, result).total(0))
     }
 
     /// The residual: the approach, or under load control the mean over the contact of the gap before it, less that gap.
@@ -363,9 +383,8 @@ impl ActiveSet {
         scratch: &mut Scratches,
     ) -> Result<(f64, f64), ContactError> {
         std::mem::swap(&mut self.preconditioned, &mut self.last);
-        self.apply_preconditioner(problem, scratch)?;
-        let sums = (self.contact).gather(&self.image, &mut self.preconditioned);
-        let share = constant_sum.map(|constant_sum| sums.total(0) / constant_sum);
+        let total = self.apply_preconditioner(problem, scratch)?;
+        let share = constant_sum.map(|constant_sum| total / constant_sum);
         let (residual, last, constant) = (&self.residual, &self.last, &self.constant);
         let found = (self.contact).each([], [&mut self.preconditioned], |block, [], [z]| {
             let at = || block.contact.clone();
@@ -389,6 +408,7 @@ impl ActiveSet {
         scratch: &mut Scratches,
     ) -> Result<Option<f64>, ContactError> {
         let (residual, preconditioned) = (&self.residual, &self.preconditioned);
+        let has_patches = problem.has_patches;
         let (window, contact) = ([&mut self.field[..]], [&mut self.direction[..]]);
         let found = self
             .contact
@@ -399,6 +419,9 @@ impl ActiveSet {
                 }
                 for Run { window, contact } in block.runs() {
                     copy(&direction[contact], &mut field[window]);
+                }
+                if has_patches {
+                    block.others().for_each(|cells| field[cells].fill(0.0));
                 }
                 [dot(&residual[at()], direction)]
             });

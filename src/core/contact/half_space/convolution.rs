@@ -14,6 +14,7 @@
 //! A [`Convolution`] is immutable and shared between threads, a [`Scratch`] belongs to one thread. A result depends on
 //! the pressure alone, never on what the scratch held before.
 
+mod continuation;
 mod even_column;
 mod length;
 mod mirrored;
@@ -34,6 +35,7 @@ use thiserror::Error;
 use super::grid::Grid;
 use super::influence::Influence;
 use super::layer::{Layer, LayerInfluence};
+pub(super) use continuation::{Continuation, SQUARE, each_square};
 use even_column::EvenColumn;
 pub(super) use length::window_length;
 use mirrored::{MirroredColumn, MirroredRow};
@@ -319,7 +321,8 @@ fn free_space(
     }
     let (cells_x, length) = (grid.cells_x(), length::fast_column(2 * grid.cells_y() - 1));
     let row = PaddedRow::<f64>::new(cells_x);
-    let spectrum = even_column::spectrum(&influence, &row, length, |_, value| value)?;
+    let coefficient = |x, y| influence.coefficient_m(x, y);
+    let spectrum = even_column::spectrum(coefficient, &row, length, |_, value| value)?;
     let single = (PaddedRow::new(cells_x), EvenColumn::new(length));
     let nearly = SpectralProduct::new(grid, single.0, single.1, spectrum.clone());
     let product = SpectralProduct::new(grid, row, EvenColumn::new(length), spectrum);

@@ -13,6 +13,7 @@
 //! operator      spectrum and work space on the grid filled up with zeros (period: on the grid itself)      3 (1.25)
 //!               the same in single precision, for changes of a gap                                         1.5 (0.625)
 //! inverse       the same on the grid itself, in single precision                                           0.625
+//! patches       of squares of cells: weights, values, sums, and their operator                             0.25
 //! map           heights of the surface, of rough ones and those of files                                   1
 //! ```
 //!
@@ -52,7 +53,9 @@ impl CellField {
             false => (OF_HALF_SPACE, numbers_of_operators(&self.grid)),
         };
         let map = if self.is_map { whole } else { 0 };
-        let doubles = (OF_ALL + engine + branches) * cells + map + exact;
+        let has_patches = self.is_map || self.is_periodic;
+        let patches = if has_patches { cells / 4 } else { 0 };
+        let doubles = (OF_ALL + engine + branches) * cells + map + patches + exact;
         let singles = exact + inverse;
         (size_of::<f64>() * doubles + size_of::<f32>() * singles) as u64
     }

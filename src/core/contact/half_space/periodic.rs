@@ -147,7 +147,7 @@ impl Periodic {
                 tolerance: self.settings.tolerance,
                 fast_steps: self.fast_steps,
                 noise_m: noise_m + ROUNDING * level_m,
-                waits: true,
+                has_patches: true,
             };
             let steps = self.settings.max_iterations;
             let solved = fields.solve(&problem, steps, &mut self.scratches, work)?;
@@ -193,8 +193,8 @@ struct Period<'a> {
 }
 
 impl Elastic for Period<'_> {
-    fn cells_x(&self) -> usize {
-        self.operator.grid().cells_x()
+    fn grid(&self) -> &Grid {
+        self.operator.grid()
     }
 
     fn displace(
@@ -219,7 +219,7 @@ impl Elastic for Period<'_> {
     /// Without its mean, a displacement is as large as the distance between its extremes.
     fn load(&self, pressure: &[f64], gap_m: &[f64], _compliance_per_pa: f64) -> (f64, f64) {
         let free_gap_m = self.free_gap_m;
-        let found = over_blocks(pressure.len(), self.cells_x(), |cells| {
+        let found = over_blocks(pressure.len(), self.grid().cells_x(), |cells| {
             let (mut least_m, mut largest_m) = (f64::INFINITY, f64::NEG_INFINITY);
             for (gap, free) in gap_m[cells.clone()].iter().zip(&free_gap_m[cells.clone()]) {
                 let lift_m = gap - free;

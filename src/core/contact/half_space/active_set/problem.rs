@@ -5,12 +5,13 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use super::super::convolution::{ConvolutionError, SINGLE, Scratch};
+use super::super::grid::Grid;
 use crate::contact::{ContactError, go_on};
 
 /// A surface in cells that yields in proportion to the pressure: of a window, or of a period.
 pub(in super::super) trait Elastic {
-    /// Cells of a row.
-    fn cells_x(&self) -> usize;
+    /// Its cells.
+    fn grid(&self) -> &Grid;
 
     /// The displacement (m per 1/Pa) of every cell by these pressures (Pa), to [`SINGLE`].
     fn displace(
@@ -47,8 +48,8 @@ pub(in super::super) struct InstantOfCells<'a> {
     pub(in super::super) fast_steps: usize,
     /// What rounding leaves in a gap (m).
     pub(in super::super) noise_m: f64,
-    /// Whether the contact has so many patches that cells of negative pressure had better wait.
-    pub(in super::super) waits: bool,
+    /// Whether the contact may have many patches.
+    pub(in super::super) has_patches: bool,
 }
 
 /// How far an iterate is from the solution.

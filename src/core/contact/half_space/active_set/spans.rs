@@ -5,6 +5,7 @@
 
 use std::ops::Range;
 
+use super::super::convolution::SQUARE;
 use crate::contact::sums::sum;
 
 /// Blocks of a large window at most.
@@ -33,12 +34,12 @@ struct Cut {
 }
 
 impl Cut {
-    /// Of a window of rows of this many cells.
+    /// Of a window of rows of this many cells; no square of cells in two blocks.
     fn new(window: usize, cells_x: usize) -> Self {
         let rows = window / cells_x.max(1);
         let is_cut = window >= FEWEST_CELLS && rows >= BLOCKS;
         let block = match is_cut {
-            true => rows.div_ceil(BLOCKS) * cells_x,
+            true => rows.div_ceil(BLOCKS).next_multiple_of(SQUARE) * cells_x,
             false => window,
         };
         Self { window, block }
@@ -266,6 +267,24 @@ impl Spans {
             )
         };
         both(these, those);
+    }
+
+    /// Gives every block its squares of a field with one value for every square of a window of rows of `cells_x` cells.
+    pub(super) fn each_of_squares(
+        &self,
+        squares: &mut [f64],
+        cells_x: usize,
+        leaf: impl Fn(&Block<'_>, &mut [f64]) + Sync,
+    ) {
+        let rows = (self.cut.block / cells_x.max(1)).div_ceil(SQUARE);
+        let mut parts = squares.chunks_mut((rows * cells_x.div_ceil(SQUARE)).max(1));
+        let mut parts: [&mut [f64]; BLOCKS] =
+            std::array::from_fn(|_| parts.next().unwrap_or_default());
+        let blocks = self.found.len();
+        let nothing = &mut [(); BLOCKS][..blocks];
+        in_halves(0, &mut parts[..blocks], nothing, &|number, part, ()| {
+            leaf(&self.block(number), part);
+        });
     }
 
     /// Writes a field of the window into one of the contact, and sums it.

@@ -11,7 +11,6 @@ use num_complex::Complex;
 use realfft::{FftError, RealToComplex};
 use rustfft::Fft;
 
-use super::super::influence::Influence;
 use super::spectral::{Column, Row, zero};
 
 /// Rows whose every bin is one frequency.
@@ -21,15 +20,16 @@ pub(super) trait FrequencyPerBin<T: Precision>: Row<T> {
     fn frequency_and_weight(&self, bin: usize) -> (usize, f64);
 }
 
-/// A function of frequency and scaled spectrum in the order in which an [`EvenColumn`] uses it: for every bin of `row`, the
-/// frequencies `0..=column_length / 2` along the column, scaled so that the inverse transforms need no scaling of their own.
+/// A function of frequency and scaled spectrum of coefficients, given by their offsets in cells along x and y, in the order in which an
+/// [`EvenColumn`] uses it: for every bin of `row`, the frequencies `0..=column_length / 2` along the column, scaled so that the inverse
+/// transforms need no scaling of their own.
 pub(super) fn spectrum<T: Precision>(
-    influence: &Influence,
+    coefficient: impl Fn(usize, usize) -> f64,
     row: &impl FrequencyPerBin<T>,
     column_length: usize,
     function: impl Fn((usize, usize), f64) -> f64,
 ) -> Result<Vec<f64>, FftError> {
-    let mut kernel = Kernel::new(influence, row.period(), column_length)?;
+    let mut kernel = Kernel::new(coefficient, row.period(), column_length)?;
     let mut column = vec![0.0; column_length / 2 + 1];
     let mut spectrum = Vec::with_capacity(row.bins() * column.len());
     for bin in 0..row.bins() {
@@ -42,7 +42,7 @@ pub(super) fn spectrum<T: Precision>(
     Ok(spectrum)
 }
 
-/// The influence coefficients, transformed along x.
+/// Coefficients, transformed along x.
 pub(super) struct Kernel {
     /// For every offset along y up to half the period, the frequencies along x up to half of theirs.
     rows: Vec<f64>,
@@ -53,7 +53,7 @@ pub(super) struct Kernel {
 impl Kernel {
     /// Coefficients made periodic with these lengths.
     pub(super) fn new(
-        influence: &Influence,
+        coefficient: impl Fn(usize, usize) -> f64,
         period_x: usize,
         period_y: usize,
     ) -> Result<Self, FftError> {
@@ -61,8 +61,7 @@ impl Kernel {
         let mut along_x = EvenTransform::new(f64::real_forward(period_x));
         let mut rows = vec![0.0; column_half * row_half];
         for (offset_y, spectrum) in rows.chunks_exact_mut(row_half).enumerate() {
-            let coefficient = |offset_x| influence.coefficient_m(offset_x, offset_y);
-            along_x.transform(coefficient, spectrum)?;
+            along_x.transform(|offset_x| coefficient(offset_x, offset_y), spectrum)?;
         }
         Ok(Self {
             rows,

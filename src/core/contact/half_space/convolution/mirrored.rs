@@ -155,7 +155,7 @@ pub(super) fn spectrum<T: Precision>(
     function: impl Fn((usize, usize), f64) -> f64,
 ) -> Result<Vec<f64>, FftError> {
     let (half_x, half_y) = (row.period() / 2, column.half);
-    let mut kernel = Kernel::new(influence, 2 * half_x, 2 * half_y)?;
+    let mut kernel = Kernel::new(|x, y| influence.coefficient_m(x, y), 2 * half_x, 2 * half_y)?;
     let mut pair = [vec![0.0; half_y + 1], vec![0.0; half_y + 1]];
     let mut spectrum = Vec::with_capacity(2 * half_y * row.bins());
     let scale = 1.0 / (half_x as f64 * half_y as f64);

@@ -45,7 +45,12 @@ impl Preconditioner {
         let cells = row.period() as f64 * column.length() as f64;
         // Scaled like the spectrum it inverts.
         let inverse = |at, value: f64| (value * softening.factor(at) * cells * cells).recip();
-        let spectrum = even_column::spectrum(&influence, &row, column.length(), inverse)?;
+        let spectrum = even_column::spectrum(
+            |x, y| influence.coefficient_m(x, y),
+            &row,
+            column.length(),
+            inverse,
+        )?;
         let product = SpectralProduct::new(grid, row, column, spectrum);
         Ok(Self { product })
     }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::super::active_set::{Elastic, InstantOfCells, IterateState, Scratches, Work};
 use super::super::convolution::{Convolution, ConvolutionError, WindowOperators};
+use super::super::grid::Grid;
 use super::super::influence::Influence;
 use super::super::instant::{Imposed, ROUNDING, hertz_guess, start};
 use super::frame::Frame;
@@ -29,8 +30,8 @@ struct Window<'a> {
 }
 
 impl Elastic for Window<'_> {
-    fn cells_x(&self) -> usize {
-        self.operators.convolution.grid().cells_x()
+    fn grid(&self) -> &Grid {
+        self.operators.convolution.grid()
     }
 
     fn displace(
@@ -59,7 +60,7 @@ impl Elastic for Window<'_> {
         let grid = self.whole.grid();
         let step_y = grid.spacing_y_m() / grid.spacing_x_m();
         let (mut moments, first) = (Moments::default(), first_centre(grid));
-        let rows = pressure.chunks_exact(self.cells_x());
+        let rows = pressure.chunks_exact(self.grid().cells_x());
         for (iy, pressure) in rows.enumerate() {
             moments.add_row(pressure, first, (iy as f64 + first) * step_y);
         }
@@ -203,7 +204,7 @@ impl HalfSpace {
                 tolerance: self.settings.tolerance,
                 fast_steps: self.fast_steps,
                 noise_m: ROUNDING * (largest_m + level_m),
-                waits: self.many_patches,
+                has_patches: self.many_patches,
             };
             let steps = self.settings.max_iterations;
             let solved = self

@@ -1,0 +1,330 @@
+//! Preconditioning where a contact has many patches.
+//!
+//! To invert the operator on a contact alone is to continue the displacement beyond the contact, so that no pressure is needed there, and
+//! to invert the operator on all cells. Where zeros continue it, it jumps at the rim of every patch: the answer to a long wave is then too
+//! strong, the more so the smaller the patches are, and conjugate gradients need more steps the more patches there are. Where the
+//! mean of the patches around continues it ([`Continuation`]), it is smooth, and the number of steps hardly depends on how many there
+//! are. The inverse is followed by the transpose of the continuation, so that the product is symmetric and positive, as conjugate
+//! gradients ask for, however good the continuation is.
+
+use std::ops::Range;
+
+use super::super::convolution::{Continuation, ConvolutionError, SQUARE, Scratch, each_square};
+use super::super::grid::Grid;
+use super::problem::{Elastic, Scratches};
+use super::spans::{Block, Spans};
+use crate::contact::sums::sum;
+
+/// What the mean over the contact weighs everywhere: as much as a patch does at a distance whose square is its area. Single patches
+/// far apart do not know of one another.
+const WEIGHT_OF_MEAN: f64 = 1.0;
+
+/// Preconditions fields of a contact, continued beyond it.
+#[derive(Default)]
+pub(super) struct Continued {
+    by: Option<Continuation>,
+    /// Of every square: what the contact weighs there, values, and their weighted sums.
+    weights: Vec<f64>,
+    values: Vec<f64>,
+    sums: Vec<f64>,
+    scratch: Scratch<f32>,
+}
+
+impl std::fmt::Debug for Continued {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Continued").finish_non_exhaustive()
+    }
+}
+
+/// Cells of the contact, or those beyond it.
+#[derive(Debug, Clone, Copy)]
+enum Side {
+    Inside,
+    Beyond,
+}
+
+impl Side {
+    /// Goes through the cells of a block, square by square, counted from its beginning.
+    fn each(self, block: &Block<'_>, cells_x: usize, leaf: impl FnMut(usize, Range<usize>)) {
+        match self {
+            Self::Inside => each_square(block.runs().map(|run| run.window), cells_x, leaf),
+            Self::Beyond => each_square(block.others(), cells_x, leaf),
+        }
+    }
+}
+
+impl Continued {
+    /// Weighs a contact. Writes, on the contact, how many cells of the surface every one of its own stands for, itself included, and
+    /// returns their sum: in proportion to that, a constant is preconditioned.
+    pub(super) fn weigh(
+        &mut self,
+        contact: &Spans,
+        grid: &Grid,
+        shares: &mut [f64],
+    ) -> Result<f64, ConvolutionError> {
+        let by = match self.by.take() {
+            Some(by) if by.grid() == grid => by,
+            _ => Continuation::on(grid)?,
+        };
+        let (x, y) = by.squares();
+        for field in [&mut self.weights, &mut self.values, &mut self.sums] {
+            field.resize(x * y, 0.0);
+        }
+        self.by = Some(by);
+        let count = |cells: Range<usize>| cells.len() as f64;
+        self.collect(contact, grid, Side::Inside, count)?;
+        std::mem::swap(&mut self.weights, &mut self.sums);
+        self.collect(contact, grid, Side::Beyond, count)?;
+        shares.fill(1.0);
+        Ok(self.add_sums(contact, grid, shares))
+    }
+
+    /// Preconditions `field`, which has values on the contact known alone and is overwritten beyond it. Writes the result on the contact,
+    /// and returns its sum. `image` is work space.
+    pub(super) fn precondition(
+        &mut self,
+        contact: &Spans,
+        elastic: &dyn Elastic,
+        (field, image): (&mut [f64], &mut [f64]),
+        result: &mut [f64],
+        scratch: &mut Scratches,
+    ) -> Result<f64, ConvolutionError> {
+        let grid = elastic.grid();
+        let given = &*field;
+        self.collect(contact, grid, Side::Inside, |cells| sum(&given[cells]))?;
+        for (sum, weight) in self.sums.iter_mut().zip(&self.weights) {
+            *sum /= weight;
+        }
+        let means = &self.sums;
+        contact.each([field], [], |block, [field], []| {
+            let means = &means[first_square(block, grid)..];
+            Side::Beyond.each(block, grid.cells_x(), |square, cells| {
+                field[cells].fill(means[square]);
+            });
+            []
+        });
+        elastic.precondition(field, image, 0..grid.cells_y(), scratch)?;
+        self.collect(contact, grid, Side::Beyond, |cells| sum(&image[cells]))?;
+        contact.gather(image, result);
+        Ok(self.add_sums(contact, grid, result))
+    }
+
+    /// The weighted sums, with the mean, of what the cells of every square on one side of a contact have; of what those beyond it have,
+    /// over the weight of their square.
+    fn collect(
+        &mut self,
+        contact: &Spans,
+        grid: &Grid,
+        side: Side,
+        value: impl Fn(Range<usize>) -> f64 + Sync,
+    ) -> Result<(), ConvolutionError> {
+        let Some(by) = &self.by else { return Ok(()) };
+        contact.each_of_squares(&mut self.values, grid.cells_x(), |block, values| {
+            values.fill(0.0);
+            let first = block.window.start;
+            side.each(block, grid.cells_x(), |square, cells| {
+                values[square] += value(first + cells.start..first + cells.end);
+            });
+        });
+        if matches!(side, Side::Beyond) {
+            for (value, weight) in self.values.iter_mut().zip(&self.weights) {
+                *value /= weight;
+            }
+        }
+        by.sum(&self.values, &mut self.sums, &mut self.scratch)?;
+        let of_mean = WEIGHT_OF_MEAN * sum(&self.values) / contact.cells() as f64;
+        self.sums.iter_mut().for_each(|sum| *sum += of_mean);
+        Ok(())
+    }
+
+    /// Adds the sums of the squares to a field of the contact; returns its sum.
+    fn add_sums(&self, contact: &Spans, grid: &Grid, field: &mut [f64]) -> f64 {
+        let found = contact.each([], [field], |block, [], [field]| {
+            let sums = &self.sums[first_square(block, grid)..];
+            let mut at = 0;
+            Side::Inside.each(block, grid.cells_x(), |square, cells| {
+                let end = at + cells.len();
+                field[at..end].iter_mut().for_each(|f| *f += sums[square]);
+                at = end;
+            });
+            [sum(field)]
+        });
+        found.total(0)
+    }
+}
+
+/// The first square of a block, which has all rows of its squares.
+fn first_square(block: &Block<'_>, grid: &Grid) -> usize {
+    let cells_x = grid.cells_x();
+    block.window.start / cells_x / SQUARE * cells_x.div_ceil(SQUARE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::convolution::PeriodicOperator;
+    use super::*;
+    use crate::numerics::random::Noise;
+
+    struct Period(PeriodicOperator);
+
+    impl Elastic for Period {
+        fn grid(&self) -> &Grid {
+            self.0.grid()
+        }
+
+        fn displace(
+            &self,
+            pressure: &[f64],
+            displacement: &mut [f64],
+            scratch: &mut Scratches,
+        ) -> Result<(), ConvolutionError> {
+            (self.0).apply_nearly(pressure, displacement, &mut scratch.changes)
+        }
+
+        fn precondition(
+            &self,
+            gap: &[f64],
+            pressure: &mut [f64],
+            rows: Range<usize>,
+            scratch: &mut Scratches,
+        ) -> Result<(), ConvolutionError> {
+            (self.0).apply_inverse(gap, pressure, rows, &mut scratch.preconditioner)
+        }
+
+        fn load(&self, _pressure: &[f64], _gap_m: &[f64], _compliance_per_pa: f64) -> (f64, f64) {
+            unreachable!("no instant is solved")
+        }
+    }
+
+    /// Cells and their lengths, along x and y.
+    type Shape = (usize, usize, f64, f64);
+
+    /// A surface, and a part of its cells in contact.
+    struct Problem {
+        period: Period,
+        contact: Spans,
+        continued: Continued,
+        shares: Vec<f64>,
+    }
+
+    impl Problem {
+        fn new((cells_x, cells_y, x, y): Shape, part: f64, noise: &mut Noise) -> Self {
+            let grid = Grid::new(cells_x, cells_y, x, y).unwrap();
+            let mut chosen: Vec<bool> = (0..grid.cells()).map(|_| noise.uniform() < part).collect();
+            chosen[grid.cells() / 2] = true;
+            let mut contact = Spans::default();
+            contact.find(grid.cells(), cells_x, |cells, found| {
+                cells
+                    .filter(|&cell| chosen[cell])
+                    .for_each(|cell| found.push(cell));
+                []
+            });
+            let mut shares = vec![0.0; contact.cells()];
+            let mut continued = Continued::default();
+            let total = continued.weigh(&contact, &grid, &mut shares).unwrap();
+            // Every cell of the surface is stood for once.
+            let cells = grid.cells() as f64;
+            assert!((total / cells - 1.0).abs() < 1e-4, "{grid:?} {total}");
+            let period = Period(PeriodicOperator::new(grid));
+            Self {
+                period,
+                contact,
+                continued,
+                shares,
+            }
+        }
+
+        fn field(&self, noise: &mut Noise) -> Vec<f64> {
+            self.shares.iter().map(|_| noise.normal()).collect()
+        }
+
+        fn precondition(&mut self, field: &[f64]) -> Vec<f64> {
+            let cells = self.period.grid().cells();
+            // What the work space holds, and the field beyond the contact, must not matter.
+            let (mut window, mut image) = (vec![7.0; cells], vec![f64::NAN; cells]);
+            self.contact.each([&mut window], [], |block, [window], []| {
+                let field = &field[block.contact.clone()];
+                for run in block.runs() {
+                    window[run.window].copy_from_slice(&field[run.contact]);
+                }
+                []
+            });
+            let mut result = vec![f64::NAN; self.contact.cells()];
+            let fields = (&mut window[..], &mut image[..]);
+            let (contact, mut scratch) = (&self.contact, Scratches::default());
+            let found = (self.continued).precondition(
+                contact,
+                &self.period,
+                fields,
+                &mut result,
+                &mut scratch,
+            );
+            let total: f64 = result.iter().sum();
+            let size: f64 = result.iter().map(|value| value.abs()).sum();
+            let found = found.unwrap();
+            assert!(
+                (found - total).abs() <= 1e-12 * size,
+                "{found} {total} {size}"
+            );
+            result
+        }
+    }
+
+    fn dot(a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| a * b).sum()
+    }
+
+    /// Sides that squares divide and others, one cell, oblong cells, and windows of several blocks.
+    const SHAPES: [Shape; 8] = [
+        (1, 1, 1.0, 1.0),
+        (3, 5, 1.0, 1.0),
+        (16, 16, 1.0, 1.0),
+        (37, 22, 1e-6, 3e-6),
+        (64, 40, 5.0, 1.0),
+        (1, 50, 1.0, 1.0),
+        (256, 256, 1e-6, 1e-6),
+        (301, 263, 1.0, 1.0),
+    ];
+
+    #[test]
+    fn it_is_symmetric_and_positive_and_answers_a_constant_by_the_shares() {
+        let mut noise = Noise(5);
+        for shape in SHAPES {
+            for part in [0.003, 0.1, 0.5, 0.97, 1.0] {
+                let mut problem = Problem::new(shape, part, &mut noise);
+                let (a, b) = (problem.field(&mut noise), problem.field(&mut noise));
+                let (of_a, of_b) = (problem.precondition(&a), problem.precondition(&b));
+                let (own_a, own_b) = (dot(&a, &of_a), dot(&b, &of_b));
+                assert!(own_a > 0.0 && own_b > 0.0, "{shape:?} {part}");
+                let off = dot(&a, &of_b) - dot(&b, &of_a);
+                let size = (own_a * own_b).sqrt();
+                assert!(off.abs() < 1e-5 * size, "{shape:?} {part} {off:e} {size:e}");
+                let of_one = problem.precondition(&vec![1.0; a.len()]);
+                let factor = of_one[0] / problem.shares[0];
+                for (one, share) in of_one.iter().zip(&problem.shares) {
+                    let off = one - factor * share;
+                    assert!(
+                        off.abs() < 1e-3 * factor * share,
+                        "{shape:?} {part} {off:e}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn threads_that_share_it_do_not_change_a_bit_of_it() {
+        let run = || {
+            let mut noise = Noise(2);
+            let mut problem = Problem::new(SHAPES[7], 0.3, &mut noise);
+            let field = problem.field(&mut noise);
+            let result = problem.precondition(&field).into_iter();
+            result.map(f64::to_bits).collect::<Vec<_>>()
+        };
+        let alone = run();
+        for threads in [1, 2, 5] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+            assert!(pool.build().unwrap().install(run) == alone, "{threads}");
+        }
+    }
+}
