@@ -2,7 +2,7 @@
 //! primal-dual active set strategy (M. Hintermueller, K. Ito and K. Kunisch, SIAM J. Optim. 13 (2002) 865).
 //!
 //! Inside the contact the gap must vanish, which is a linear problem for its pressure; conjugate gradients solve it in a few
-//! steps when preconditioned with what nearly inverts the operator ([`Elastic`]). Cells whose pressure turns
+//! steps when preconditioned with what nearly inverts the operator ([`preconditioning`]). Cells whose pressure turns
 //! negative leave the contact at once, at the price of a convolution; or, where a contact has many patches, once the gaps inside have
 //! shrunk, as long as that leads down ([`Waiting`]). Cells that penetrate outside join it, without a convolution, once that is what
 //! matters more than the gaps inside. Under load control the pressures' sum stays what it is:
@@ -11,14 +11,14 @@
 //! Changes of the contact are not proved to end, so the number of steps without progress is bounded; what is then left to do
 //! is done by [`polonsky_keer`](super::polonsky_keer), which descends.
 
-mod continued;
+mod preconditioning;
 mod problem;
 mod spans;
 
 use super::instant::STANDING_OFF;
 use crate::contact::ContactError;
 use crate::contact::sums::{add_scaled, dot, least, least_of, sum, sums};
-use continued::Continued;
+use preconditioning::Continued;
 use problem::Waiting;
 pub(super) use problem::{Elastic, InstantOfCells, IterateState, Scratches, Work};
 pub(super) use spans::over_blocks;
@@ -272,50 +272,6 @@ impl ActiveSet {
         Ok(true)
     }
 
-    /// Under load control, the preconditioned constant and its sum. Weighs a contact of many patches.
-    fn precondition_constant(
-        &mut self,
-        problem: &InstantOfCells<'_>,
-        scratch: &mut Scratches,
-    ) -> Result<Option<f64>, ContactError> {
-        let is_loaded = problem.target_sum.is_some();
-        if problem.has_patches {
-            let grid = problem.elastic.grid();
-            let total = self
-                .continued
-                .weigh(&self.contact, grid, &mut self.constant)?;
-            return Ok(is_loaded.then_some(total));
-        }
-        if !is_loaded {
-            return Ok(None);
-        }
-        self.contact
-            .each([&mut self.field], [], |block, [field], []| {
-                block.runs().for_each(|run| field[run.window].fill(1.0));
-                []
-            });
-        let total = self.apply_preconditioner(problem, scratch)?;
-        std::mem::swap(&mut self.constant, &mut self.preconditioned);
-        Ok(Some(total))
-    }
-
-    /// The preconditioner applied to `field`, in `preconditioned`; returns the sum of that.
-    fn apply_preconditioner(
-        &mut self,
-        problem: &InstantOfCells<'_>,
-        scratch: &mut Scratches,
-    ) -> Result<f64, ContactError> {
-        let (elastic, result) = (problem.elastic, &mut self.preconditioned);
-        if problem.has_patches {
-            let fields = (&mut self.field[..], &mut self.image[..]);
-            let of = &mut self.continued;
-            return Ok(of.precondition(&self.contact, elastic, fields, result, scratch)?);
-        }
-        let rows = self.contact.rows(elastic.grid().cells_x());
-        elastic.precondition(&self.field, &mut self.image, rows, scratch)?;
-        Ok(self.contact.gather(&self.image, result).total(0))
-    }
-
     /// The residual: the approach, or under load control the mean over the contact of the gap before it, less that gap.
     /// Returns how far the gap is from none (m), on average by pressure or, if that says more, where it is highest; and the
     /// approach of which it is the gap.
@@ -372,31 +328,6 @@ impl ActiveSet {
             f64::INFINITY
         };
         (misfit_m, approach_m)
-    }
-
-    /// Preconditions the residual, which is in `field`; under load control the sum of the result is nil. Returns its product
-    /// with the residual, and with the change of the residual's preconditioned form since the last step.
-    fn precondition(
-        &mut self,
-        problem: &InstantOfCells<'_>,
-        constant_sum: Option<f64>,
-        scratch: &mut Scratches,
-    ) -> Result<(f64, f64), ContactError> {
-        std::mem::swap(&mut self.preconditioned, &mut self.last);
-        let total = self.apply_preconditioner(problem, scratch)?;
-        let share = constant_sum.map(|constant_sum| total / constant_sum);
-        let (residual, last, constant) = (&self.residual, &self.last, &self.constant);
-        let found = (self.contact).each([], [&mut self.preconditioned], |block, [], [z]| {
-            let at = || block.contact.clone();
-            if let Some(share) = share {
-                for (z, one) in z.iter_mut().zip(&constant[at()]) {
-                    *z -= share * one;
-                }
-            }
-            [dot(&residual[at()], z), dot(&residual[at()], &last[at()])]
-        });
-        let (product, last) = (found.total(0), found.total(1));
-        Ok((product, product - last))
     }
 
     /// Turns the direction, and finds how far to go along it; its displacement is then in `image`. `None` where it leads

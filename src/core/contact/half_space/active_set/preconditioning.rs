@@ -1,19 +1,92 @@
-//! Preconditioning where a contact has many patches.
+//! What shows conjugate gradients the way on a contact: nearly the inverse of the operator there.
 //!
 //! To invert the operator on a contact alone is to continue the displacement beyond the contact, so that no pressure is needed there, and
-//! to invert the operator on all cells. Where zeros continue it, it jumps at the rim of every patch: the answer to a long wave is then too
-//! strong, the more so the smaller the patches are, and conjugate gradients need more steps the more patches there are. Where the
-//! mean of the patches around continues it ([`Continuation`]), it is smooth, and the number of steps hardly depends on how many there
-//! are. The inverse is followed by the transpose of the continuation, so that the product is symmetric and positive, as conjugate
-//! gradients ask for, however good the continuation is.
+//! to invert the operator on all cells. On a contact of one patch zeros continue it well enough. On many patches it would jump at the rim
+//! of every one of them: the answer to a long wave is then too strong, the more so the smaller the patches are, and conjugate
+//! gradients need more steps the more patches there are. Where the mean of the patches around continues it ([`Continuation`]), it is
+//! smooth, and the number of steps hardly depends on how many there are. The inverse is followed by the transpose of the continuation,
+//! so that the product is symmetric and positive, as conjugate gradients ask for, however good the continuation is.
 
 use std::ops::Range;
 
 use super::super::convolution::{Continuation, ConvolutionError, SQUARE, Scratch, each_square};
 use super::super::grid::Grid;
-use super::problem::{Elastic, Scratches};
+use super::ActiveSet;
+use super::problem::{Elastic, InstantOfCells, Scratches};
 use super::spans::{Block, Spans};
-use crate::contact::sums::sum;
+use crate::contact::ContactError;
+use crate::contact::sums::{dot, sum};
+
+impl ActiveSet {
+    /// Preconditions the residual, which is in `field`; under load control the sum of the result is nil. Returns its product
+    /// with the residual, and with the change of the residual's preconditioned form since the last step.
+    pub(super) fn precondition(
+        &mut self,
+        problem: &InstantOfCells<'_>,
+        constant_sum: Option<f64>,
+        scratch: &mut Scratches,
+    ) -> Result<(f64, f64), ContactError> {
+        std::mem::swap(&mut self.preconditioned, &mut self.last);
+        let total = self.apply_preconditioner(problem, scratch)?;
+        let share = constant_sum.map(|constant_sum| total / constant_sum);
+        let (residual, last, constant) = (&self.residual, &self.last, &self.constant);
+        let found = (self.contact).each([], [&mut self.preconditioned], |block, [], [z]| {
+            let at = || block.contact.clone();
+            if let Some(share) = share {
+                for (z, one) in z.iter_mut().zip(&constant[at()]) {
+                    *z -= share * one;
+                }
+            }
+            [dot(&residual[at()], z), dot(&residual[at()], &last[at()])]
+        });
+        let (product, last) = (found.total(0), found.total(1));
+        Ok((product, product - last))
+    }
+
+    /// Under load control, the preconditioned constant and its sum. Weighs a contact of many patches.
+    pub(super) fn precondition_constant(
+        &mut self,
+        problem: &InstantOfCells<'_>,
+        scratch: &mut Scratches,
+    ) -> Result<Option<f64>, ContactError> {
+        let is_loaded = problem.target_sum.is_some();
+        if problem.has_patches {
+            let grid = problem.elastic.grid();
+            let total = self
+                .continued
+                .weigh(&self.contact, grid, &mut self.constant)?;
+            return Ok(is_loaded.then_some(total));
+        }
+        if !is_loaded {
+            return Ok(None);
+        }
+        self.contact
+            .each([&mut self.field], [], |block, [field], []| {
+                block.runs().for_each(|run| field[run.window].fill(1.0));
+                []
+            });
+        let total = self.apply_preconditioner(problem, scratch)?;
+        std::mem::swap(&mut self.constant, &mut self.preconditioned);
+        Ok(Some(total))
+    }
+
+    /// The preconditioner applied to `field`, in `preconditioned`; returns the sum of that.
+    fn apply_preconditioner(
+        &mut self,
+        problem: &InstantOfCells<'_>,
+        scratch: &mut Scratches,
+    ) -> Result<f64, ContactError> {
+        let (elastic, result) = (problem.elastic, &mut self.preconditioned);
+        if problem.has_patches {
+            let fields = (&mut self.field[..], &mut self.image[..]);
+            let of = &mut self.continued;
+            return Ok(of.precondition(&self.contact, elastic, fields, result, scratch)?);
+        }
+        let rows = self.contact.rows(elastic.grid().cells_x());
+        elastic.precondition(&self.field, &mut self.image, rows, scratch)?;
+        Ok(self.contact.gather(&self.image, result).total(0))
+    }
+}
 
 /// What the mean over the contact weighs everywhere: as much as a patch does at a distance whose square is its area. Single patches
 /// far apart do not know of one another.
