@@ -238,7 +238,7 @@ fn threads_share_an_instant_and_agree_to_the_last_bit() {
 }
 
 #[test]
-fn steps_hardly_grow_with_the_cells_of_a_rough_surface() {
+fn steps_grow_slowly_with_the_cells_of_a_rough_surface() {
     let steps = |cells: usize| {
         let (grid, gaps, slope) = self_affine(cells, 0.5, 7);
         let load_n = 0.34 * slope / COMPLIANCE * grid.cells() as f64 * grid.cell_area_m2();

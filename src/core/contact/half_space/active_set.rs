@@ -339,7 +339,6 @@ impl ActiveSet {
         scratch: &mut Scratches,
     ) -> Result<Option<f64>, ContactError> {
         let (residual, preconditioned) = (&self.residual, &self.preconditioned);
-        let has_patches = problem.has_patches;
         let (window, contact) = ([&mut self.field[..]], [&mut self.direction[..]]);
         let found = self
             .contact
@@ -350,9 +349,6 @@ impl ActiveSet {
                 }
                 for Run { window, contact } in block.runs() {
                     copy(&direction[contact], &mut field[window]);
-                }
-                if has_patches {
-                    block.others().for_each(|cells| field[cells].fill(0.0));
                 }
                 [dot(&residual[at()], direction)]
             });

@@ -187,9 +187,9 @@ impl Periodic {
 }
 
 /// A period under pressure, and the gap it would have without.
-struct Period<'a> {
-    operator: &'a PeriodicOperator,
-    free_gap_m: &'a [f64],
+pub(super) struct Period<'a> {
+    pub(super) operator: &'a PeriodicOperator,
+    pub(super) free_gap_m: &'a [f64],
 }
 
 impl Elastic for Period<'_> {

@@ -94,8 +94,9 @@ impl March<'_> {
         Ok(self.count(solution))
     }
 
-    /// Goes back to memory variables known from before, branch-major as in [`Memory::variables`](crate::history::Memory::variables). The pressure stays as the
-    /// guess for the next instant, which must be a jump.
+    /// Goes back to memory variables known from before, branch-major as in
+    /// [`Memory::variables`](crate::history::Memory::variables). The pressure stays as the guess for the next instant, which must be a
+    /// jump.
     pub fn recall(&mut self, variables: &[f64]) {
         self.memory.recall(variables);
         self.reset_predictor();

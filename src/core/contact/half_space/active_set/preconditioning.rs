@@ -49,16 +49,16 @@ impl ActiveSet {
         problem: &InstantOfCells<'_>,
         scratch: &mut Scratches,
     ) -> Result<Option<f64>, ContactError> {
-        let is_loaded = problem.target_sum.is_some();
+        let grid = problem.elastic.grid();
         if problem.has_patches {
-            let grid = problem.elastic.grid();
-            let total = self
-                .continued
-                .weigh(&self.contact, grid, &mut self.constant)?;
-            return Ok(is_loaded.then_some(total));
+            self.continued.weigh(&self.contact, grid)?;
         }
-        if !is_loaded {
+        if problem.target_sum.is_none() {
             return Ok(None);
+        }
+        if problem.has_patches {
+            let (contact, shares) = (&self.contact, &mut self.constant);
+            return Ok(Some(self.continued.shares(contact, grid, shares)?));
         }
         self.contact
             .each([&mut self.field], [], |block, [field], []| {
@@ -127,14 +127,8 @@ impl Side {
 }
 
 impl Continued {
-    /// Weighs a contact. Writes, on the contact, how many cells of the surface every one of its own stands for, itself included, and
-    /// returns their sum: in proportion to that, a constant is preconditioned.
-    pub(super) fn weigh(
-        &mut self,
-        contact: &Spans,
-        grid: &Grid,
-        shares: &mut [f64],
-    ) -> Result<f64, ConvolutionError> {
+    /// Weighs a contact, to which all else refers.
+    fn weigh(&mut self, contact: &Spans, grid: &Grid) -> Result<(), ConvolutionError> {
         let by = match self.by.take() {
             Some(by) if by.grid() == grid => by,
             _ => Continuation::on(grid)?,
@@ -144,17 +138,27 @@ impl Continued {
             field.resize(x * y, 0.0);
         }
         self.by = Some(by);
-        let count = |cells: Range<usize>| cells.len() as f64;
-        self.collect(contact, grid, Side::Inside, count)?;
+        self.collect(contact, grid, Side::Inside, |cells| cells.len() as f64)?;
         std::mem::swap(&mut self.weights, &mut self.sums);
-        self.collect(contact, grid, Side::Beyond, count)?;
+        Ok(())
+    }
+
+    /// Writes, on the contact, how many cells of the surface every one of its own stands for, itself included, and returns their sum:
+    /// in proportion to that, a constant is preconditioned.
+    fn shares(
+        &mut self,
+        contact: &Spans,
+        grid: &Grid,
+        shares: &mut [f64],
+    ) -> Result<f64, ConvolutionError> {
+        self.collect(contact, grid, Side::Beyond, |cells| cells.len() as f64)?;
         shares.fill(1.0);
         Ok(self.add_sums(contact, grid, shares))
     }
 
-    /// Preconditions `field`, which has values on the contact known alone and is overwritten beyond it. Writes the result on the contact,
-    /// and returns its sum. `image` is work space.
-    pub(super) fn precondition(
+    /// Preconditions `field`, which has values on the contact alone and is left with zeros beyond it. Writes the result on the contact, and
+    /// returns its sum. `image` is work space.
+    fn precondition(
         &mut self,
         contact: &Spans,
         elastic: &dyn Elastic,
@@ -169,7 +173,7 @@ impl Continued {
             *sum /= weight;
         }
         let means = &self.sums;
-        contact.each([field], [], |block, [field], []| {
+        contact.each([&mut *field], [], |block, [field], []| {
             let means = &means[first_square(block, grid)..];
             Side::Beyond.each(block, grid.cells_x(), |square, cells| {
                 field[cells].fill(means[square]);
@@ -177,6 +181,10 @@ impl Continued {
             []
         });
         elastic.precondition(field, image, 0..grid.cells_y(), scratch)?;
+        contact.each([field], [], |block, [field], []| {
+            block.others().for_each(|cells| field[cells].fill(0.0));
+            []
+        });
         self.collect(contact, grid, Side::Beyond, |cells| sum(&image[cells]))?;
         contact.gather(image, result);
         Ok(self.add_sums(contact, grid, result))
@@ -234,47 +242,16 @@ fn first_square(block: &Block<'_>, grid: &Grid) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::convolution::PeriodicOperator;
+    use super::super::super::periodic::{Period, PeriodicOperator};
     use super::*;
     use crate::numerics::random::Noise;
-
-    struct Period(PeriodicOperator);
-
-    impl Elastic for Period {
-        fn grid(&self) -> &Grid {
-            self.0.grid()
-        }
-
-        fn displace(
-            &self,
-            pressure: &[f64],
-            displacement: &mut [f64],
-            scratch: &mut Scratches,
-        ) -> Result<(), ConvolutionError> {
-            (self.0).apply_nearly(pressure, displacement, &mut scratch.changes)
-        }
-
-        fn precondition(
-            &self,
-            gap: &[f64],
-            pressure: &mut [f64],
-            rows: Range<usize>,
-            scratch: &mut Scratches,
-        ) -> Result<(), ConvolutionError> {
-            (self.0).apply_inverse(gap, pressure, rows, &mut scratch.preconditioner)
-        }
-
-        fn load(&self, _pressure: &[f64], _gap_m: &[f64], _compliance_per_pa: f64) -> (f64, f64) {
-            unreachable!("no instant is solved")
-        }
-    }
 
     /// Cells and their lengths, along x and y.
     type Shape = (usize, usize, f64, f64);
 
     /// A surface, and a part of its cells in contact.
     struct Problem {
-        period: Period,
+        operator: PeriodicOperator,
         contact: Spans,
         continued: Continued,
         shares: Vec<f64>,
@@ -294,13 +271,14 @@ mod tests {
             });
             let mut shares = vec![0.0; contact.cells()];
             let mut continued = Continued::default();
-            let total = continued.weigh(&contact, &grid, &mut shares).unwrap();
+            continued.weigh(&contact, &grid).unwrap();
+            let total = continued.shares(&contact, &grid, &mut shares).unwrap();
             // Every cell of the surface is stood for once.
             let cells = grid.cells() as f64;
             assert!((total / cells - 1.0).abs() < 1e-4, "{grid:?} {total}");
-            let period = Period(PeriodicOperator::new(grid));
+            let operator = PeriodicOperator::new(grid);
             Self {
-                period,
+                operator,
                 contact,
                 continued,
                 shares,
@@ -312,7 +290,7 @@ mod tests {
         }
 
         fn precondition(&mut self, field: &[f64]) -> Vec<f64> {
-            let cells = self.period.grid().cells();
+            let cells = self.operator.grid().cells();
             // What the work space holds, and the field beyond the contact, must not matter.
             let (mut window, mut image) = (vec![7.0; cells], vec![f64::NAN; cells]);
             self.contact.each([&mut window], [], |block, [window], []| {
@@ -322,16 +300,15 @@ mod tests {
                 }
                 []
             });
+            let period = Period {
+                operator: &self.operator,
+                free_gap_m: &[],
+            };
             let mut result = vec![f64::NAN; self.contact.cells()];
             let fields = (&mut window[..], &mut image[..]);
             let (contact, mut scratch) = (&self.contact, Scratches::default());
-            let found = (self.continued).precondition(
-                contact,
-                &self.period,
-                fields,
-                &mut result,
-                &mut scratch,
-            );
+            let found =
+                (self.continued).precondition(contact, &period, fields, &mut result, &mut scratch);
             let total: f64 = result.iter().sum();
             let size: f64 = result.iter().map(|value| value.abs()).sum();
             let found = found.unwrap();
@@ -341,10 +318,6 @@ mod tests {
             );
             result
         }
-    }
-
-    fn dot(a: &[f64], b: &[f64]) -> f64 {
-        a.iter().zip(b).map(|(a, b)| a * b).sum()
     }
 
     /// Sides that squares divide and others, one cell, oblong cells, and windows of several blocks.
