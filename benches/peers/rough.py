@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Rough viscoelastic contact in this program and its peers: a table and a figure anyone can make again.
 
-    python3 benches/peers/rough.py [--cells 256,512,1024,2048] [--peer-cells 256,512] [--kinds periodic,free] [--draw]
+    python3 benches/peers/rough.py [--cells 256,512,1024,2048] [--peer-cells 256,512] [--kinds periodic,refined,free] [--draw]
 
 What is pressed is told in `rough_surface.py`. Every run is a process of its own, and its row is appended to
 reports/performance/rough-surfaces.csv when it ends; rows that are there are not run again. `--draw` draws what there is. Virtual environments
@@ -37,7 +37,7 @@ from rough_surface import *
 cells, kind, folder = int(sys.argv[2]), sys.argv[3], sys.argv[4]
 np.save(folder + "/map.npy", heights(cells, kind).astype("<f8"))
 mean, omega = float(mean_load(cells, kind)), 2 * np.pi / PERIOD_S
-edge = "periodic" if kind == "periodic" else "unknown"
+edge = "unknown" if kind == "free" else "periodic"
 open(folder + "/rough.toml", "w").write(f'''title = "rough"
 [material]
 library = "pmma"
@@ -127,10 +127,11 @@ import csv, sys
 import matplotlib; matplotlib.use("agg")
 import matplotlib.pyplot as plt
 rows = list(csv.DictReader(open(sys.argv[1])))
-figure, frames = plt.subplots(1, 2, figsize=(9, 3.6), sharey=True, layout="constrained")
+TITLES = {"periodic": "one period", "refined": "one period, the same waves", "free": "free space"}
+figure, frames = plt.subplots(1, 3, figsize=(11, 3.6), sharey=True, layout="constrained")
 marks = iter("os^v")
 styles = {}
-for frame, kind in zip(frames, ("periodic", "free")):
+for frame, (kind, title) in zip(frames, TITLES.items()):
     series = {}
     for row in rows:
         if row["kind"] == kind:
@@ -140,7 +141,7 @@ for frame, kind in zip(frames, ("periodic", "free")):
         if name not in styles:
             styles[name] = dict(marker=next(marks), color=f"C{len(styles)}")
         frame.loglog(*zip(*sorted(points)), label=name, **styles[name])
-    frame.set(title={"periodic": "one period", "free": "free space"}[kind], xlabel="cells per side")
+    frame.set(title=title, xlabel="cells per side")
     ticks = sorted({int(row["cells"]) for row in rows})
     frame.set_xticks(ticks, ticks)
     frame.minorticks_off()
@@ -157,7 +158,7 @@ def main():
     sizes = lambda text: [int(part) for part in text.split(",") if part]
     parser.add_argument("--cells", type=sizes, default=[256, 512, 1024, 2048])
     parser.add_argument("--peer-cells", type=sizes, default=[256, 512])
-    parser.add_argument("--kinds", type=lambda text: text.split(","), default=["periodic", "free"])
+    parser.add_argument("--kinds", type=lambda text: text.split(","), default=["periodic", "refined", "free"])
     parser.add_argument("--threads", type=sizes, default=[1, os.cpu_count()])
     parser.add_argument("--program", default=ROOT / "target" / "release" / "contact-dma")
     parser.add_argument("--draw", action="store_true")
@@ -167,7 +168,7 @@ def main():
         for kind in options.kinds:
             for threads in options.threads:
                 measure(OURS, kind, cells, threads, lambda: ours(options.program, cells, kind, threads))
-            if cells in options.peer_cells:
+            if cells in options.peer_cells and kind != "refined":
                 for name, script, instants in [
                     (CONTACT_MECHANICS, "contactmechanics_rough.py", 1),
                     (TAMAAS, "tamaas_rough.py", 21),

@@ -2,7 +2,8 @@
 in N, moduli in MPa.
 
 Self-affine heights of Hurst exponent 0.8, wavelengths from 8 cells to a quarter of the side of 1 mm, root mean square slope 0.05, of random
-phases that do not depend on the cells; `free` adds a paraboloid so that the contact stays inside. The load is
+phases that do not depend on the cells; `free` adds a paraboloid so that the contact stays inside. `refined` has the waves of the period of
+256 x 256 cells, the same on all: what grows with them is then the resolution alone, not the roughness. The load is
 F (1 + sin(omega t) / 2) from t = 0 on, one period in 20 steps.
 """
 
@@ -17,7 +18,7 @@ SHARE, RADIUS = 0.1, 0.25
 
 def heights(cells, kind):
     """Heights (mm), one row per y, highest where contact begins."""
-    highest = cells // 8
+    highest = 32 if kind == "refined" else cells // 8
     k = np.arange(-highest, highest + 1)
     q = np.hypot(*np.meshgrid(k, k))
     inside = (q >= 1) & (q <= highest)
@@ -47,7 +48,7 @@ def curvature_radius(rough):
 def mean_load(cells, kind):
     """F (N)."""
     modulus = RELAXED / (1 - POISSON**2)
-    if kind == "periodic":
+    if kind != "free":
         return SHARE * modulus * SLOPE * SIDE**2
     rough = heights(cells, "periodic")
     return 4 / 3 * modulus * (RADIUS * SIDE) ** 3 / curvature_radius(rough)
