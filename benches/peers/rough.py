@@ -28,6 +28,8 @@ COLUMNS = (
 ).split()
 OURS = "contact-dma"
 TAMAAS, CONTACT_MECHANICS = PEERS
+# What `rough_surface.py` knows, and what the figure calls it.
+KINDS = {"periodic": "one period", "refined": "one period, the same waves", "free": "free space"}
 
 # Run where NumPy is: the scenario of this program, and what its folder says.
 WRITE = """
@@ -123,15 +125,15 @@ def measure(program, kind, cells, threads, measured):
 
 
 DRAW = """
-import csv, sys
+import csv, json, sys
 import matplotlib; matplotlib.use("agg")
 import matplotlib.pyplot as plt
 rows = list(csv.DictReader(open(sys.argv[1])))
-TITLES = {"periodic": "one period", "refined": "one period, the same waves", "free": "free space"}
-figure, frames = plt.subplots(1, 3, figsize=(11, 3.6), sharey=True, layout="constrained")
+kinds = json.loads(sys.argv[3])
+figure, frames = plt.subplots(1, len(kinds), figsize=(11, 3.6), sharey=True, layout="constrained")
 marks = iter("os^v")
 styles = {}
-for frame, (kind, title) in zip(frames, TITLES.items()):
+for frame, (kind, title) in zip(frames, kinds.items()):
     series = {}
     for row in rows:
         if row["kind"] == kind:
@@ -158,7 +160,7 @@ def main():
     sizes = lambda text: [int(part) for part in text.split(",") if part]
     parser.add_argument("--cells", type=sizes, default=[256, 512, 1024, 2048])
     parser.add_argument("--peer-cells", type=sizes, default=[256, 512])
-    parser.add_argument("--kinds", type=lambda text: text.split(","), default=["periodic", "refined", "free"])
+    parser.add_argument("--kinds", type=lambda text: text.split(","), default=list(KINDS))
     parser.add_argument("--threads", type=sizes, default=[1, os.cpu_count()])
     parser.add_argument("--program", default=ROOT / "target" / "release" / "contact-dma")
     parser.add_argument("--draw", action="store_true")
@@ -175,7 +177,7 @@ def main():
                 ]:
                     measure(name, kind, cells, 1, lambda: peer(name, script, instants)(cells, kind))
     if options.draw:
-        subprocess.run([python_of(MATPLOTLIB), "-c", DRAW, TABLE, OUT / "rough-surfaces"], check=True)
+        subprocess.run([python_of(MATPLOTLIB), "-c", DRAW, TABLE, OUT / "rough-surfaces", json.dumps(KINDS)], check=True)
 
 
 if __name__ == "__main__":

@@ -18,7 +18,7 @@ SHARE, RADIUS = 0.1, 0.25
 
 def heights(cells, kind):
     """Heights (mm), one row per y, highest where contact begins."""
-    highest = 32 if kind == "refined" else cells // 8
+    highest = (256 if kind == "refined" else cells) // 8
     k = np.arange(-highest, highest + 1)
     q = np.hypot(*np.meshgrid(k, k))
     inside = (q >= 1) & (q <= highest)
