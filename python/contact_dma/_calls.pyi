@@ -74,7 +74,7 @@ def sweep(
         max_cycles: Number of marched cycles after which a frequency counts as not converged. An integer from 1 to 100000000.
         at_cycle: With `method = "march"`: records this cycle after the hold, counted from 1, whether it is stabilised or not. An integer from 1 to 100000000.
         error_bars: Whether every case is also solved with coarser steps and nodes to estimate its errors. `true` or `false`.
-        accuracy: Largest relative error of every loss: steps, and springs or cells, are chosen to reach it. Same as `--accuracy`. A number of at least 1e-8 and below 1.
+        accuracy: Largest relative error of every loss: steps, and springs or cells, are chosen to reach it. Same as `--accuracy`. A sweep whose `steps` are left out begins at 100. A number of at least 1e-8 and below 1.
         engine: The contact engine; left out: the axisymmetric one if the indenter is a convex body of revolution. "axisymmetric" or "half-space".
         cells: Half-space engine: cells along the longer side of the domain; a height map has its own. An integer from 8 to 4096.
         springs: Axisymmetric engine: springs over the domain. An integer from 10 to 10000.
@@ -202,7 +202,7 @@ def identify(
         max_cycles: Number of marched cycles after which a frequency counts as not converged. An integer from 1 to 100000000.
         at_cycle: With `method = "march"`: records this cycle after the hold, counted from 1, whether it is stabilised or not. An integer from 1 to 100000000.
         error_bars: Whether every case is also solved with coarser steps and nodes to estimate its errors. `true` or `false`.
-        accuracy: Largest relative error of every loss: steps, and springs or cells, are chosen to reach it. Same as `--accuracy`. A number of at least 1e-8 and below 1.
+        accuracy: Largest relative error of every loss: steps, and springs or cells, are chosen to reach it. Same as `--accuracy`. A sweep whose `steps` are left out begins at 100. A number of at least 1e-8 and below 1.
         engine: The contact engine; left out: the axisymmetric one if the indenter is a convex body of revolution. "axisymmetric" or "half-space".
         cells: Half-space engine: cells along the longer side of the domain; a height map has its own. An integer from 8 to 4096.
         springs: Axisymmetric engine: springs over the domain. An integer from 10 to 10000.

@@ -45,7 +45,10 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
         let sweep = sweep.and_then(|table| read(table, prescribed.dimension()));
         let sweep = sweep.as_ref();
         let blocks = Blocks::read(root, sweep, given);
-        let cycle = root.table_or(&keys::CYCLE, CyclePlan::default(), |t| block::read(t, None));
+        let cycle = root.table_or(&keys::CYCLE, CyclePlan::default(), |mut t| {
+            let to_accuracy = t.place_of("accuracy").is_some();
+            block::read(t, to_accuracy.then_some(&CyclePlan::TO_AN_ACCURACY))
+        });
         let layer = blocks.layer.iter().flatten().next();
         let is_layer = layer.is_some_and(Option::is_some);
         let default = blocks.indenter.as_deref().and_then(|indenters| {

@@ -33,13 +33,13 @@ fn cases_cost_what_they_did() {
         ("tapping sphere", tapping.clone(), [260, 593, 0]),
         ("prescribed approach", pressed.clone(), [195, 195, 0]),
         ("marched", marched, [258, 746, 0]),
-        ("sphere on cells", on_32(sphere()), [260, 390, 733]),
-        ("with bars on cells", on_32_with_bars, [525, 760, 1476]),
-        ("punch on cells", on_32(punch), [260, 87, 416]),
-        ("ellipsoid on cells", on_32(ellipsoid), [260, 447, 865]),
-        ("tapping sphere on cells", on_32(tapping), [260, 329, 694]),
-        ("approach on cells", on_32(pressed), [260, 519, 855]),
-        ("to an accuracy on cells", to_accuracy, [657, 1098, 2048]),
+        ("sphere on cells", on_32(sphere()), [196, 366, 645]),
+        ("with bars on cells", on_32_with_bars, [381, 747, 1354]),
+        ("punch on cells", on_32(punch), [196, 101, 366]),
+        ("ellipsoid on cells", on_32(ellipsoid), [196, 432, 786]),
+        ("tapping sphere on cells", on_32(tapping), [196, 323, 624]),
+        ("approach on cells", on_32(pressed), [196, 488, 760]),
+        ("to an accuracy on cells", to_accuracy, [448, 1061, 1802]),
     ] {
         let record = run_case(&plan, 0.01);
         assert!(record.result.is_some(), "{name}: {:?}", record.message);

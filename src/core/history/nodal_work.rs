@@ -27,7 +27,7 @@ use super::rule::linear_weight;
 use crate::contact::{ContactError, Engine, sums};
 use crate::material::Creep;
 
-/// Work of a number of equal steps, added up per node.
+/// Work of a number of equal steps of a cycle, added up per node.
 pub struct NodalWork {
     compliance: Creep,
     step_s: f64,
@@ -35,6 +35,8 @@ pub struct NodalWork {
     forgotten: Vec<f64>,
     /// B_0: displacement of a node by its own pressure (per unit of both compliance and pressure).
     own: f64,
+    /// Approach (m) and load (N) at the beginning.
+    began: Option<(f64, f64)>,
     last: Option<WorkInstant>,
     /// Integral of p d(delta) per node, and what of the trapezia (J) it leaves out.
     work: Vec<f64>,
@@ -59,6 +61,7 @@ impl NodalWork {
             compliance: compliance.clone(),
             step_s,
             own: 0.0,
+            began: None,
             last: None,
             work: vec![0.0; nodes],
             left_out_j: 0.0,
@@ -87,7 +90,10 @@ impl NodalWork {
         };
         match self.last.take() {
             Some(start) => self.add(engine, &start, &instant),
-            None => convolutions += self.find_own(engine)?,
+            None => {
+                self.began = Some((approach_m, load_n(engine, pressure)));
+                convolutions += self.find_own(engine)?;
+            }
         }
         let branches = self.compliance.branches().iter().zip(&self.forgotten);
         let memories = memory.variables().chunks_exact(pressure.len().max(1));
@@ -101,11 +107,14 @@ impl NodalWork {
 
     /// The work per node, in the unit of the nodal pressure times a metre, that adds up to the area of the polygon through the loop.
     pub(super) fn of_loop(&self, engine: &dyn Engine) -> Vec<f64> {
-        let nodes = self.work.iter().enumerate();
-        let load = |(node, work): (usize, &f64)| engine.load_per_nodal_pressure(node) * work;
-        let sum_j: f64 = nodes.map(load).sum();
+        // The line from the last sample to the first closes the polygon.
+        let closing = self.began.zip(self.last.as_ref()).map(|(began, last)| {
+            let loads_n = began.1 + load_n(engine, &last.pressure);
+            0.5 * loads_n * (began.0 - last.approach_m)
+        });
+        let added_j = self.left_out_j + closing.unwrap_or(0.0);
         // Of a body that loses nothing both are rounding.
-        let factor = Some(1.0 + self.left_out_j / sum_j);
+        let factor = Some(1.0 + added_j / load_n(engine, &self.work));
         let factor = factor.filter(|factor| factor.is_finite() && *factor > 0.0);
         let factor = factor.unwrap_or(1.0);
         self.work.iter().map(|work| factor * work).collect()
@@ -158,6 +167,14 @@ impl NodalWork {
         let flown = (self.compliance.viscosity_pa_s()).map(|eta| 0.5 * time_s / eta);
         self.compliance.instantaneous_compliance() + delayed.chain(flown).sum::<f64>()
     }
+}
+
+/// The load of a nodal pressure.
+fn load_n(engine: &dyn Engine, pressure: &[f64]) -> f64 {
+    let nodes = pressure.iter().enumerate();
+    nodes
+        .map(|(node, p)| engine.load_per_nodal_pressure(node) * p)
+        .sum()
 }
 
 /// d / (d + g), of lengths that rounding may have made negative.

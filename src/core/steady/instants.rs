@@ -35,6 +35,8 @@ impl Instants {
     const QUICK_CYCLES: usize = 5;
     /// By how much looser the instants may be of a cycle that ends the search.
     const AT_THE_END: f64 = 3.0;
+    /// The distance expected of a cycle that is likely to end the search, over that at which it ends: most leave less than expected.
+    const NEAR_THE_END: f64 = 3.0;
 
     /// Before the first cycle of a search from rest, or from a start.
     pub(super) fn new(march: &March<'_>, has_start: bool, settings: SteadySettings) -> Self {
@@ -61,15 +63,25 @@ impl Instants {
             .map_or(1.0, |given| looser.min((Self::LOOSEST / given).max(1.0)))
     }
 
-    /// Before a cycle of so many instants behind its first.
-    pub(super) fn begin_cycle(&self, march: &mut March<'_>, instants: usize) {
-        if let Some(given) = self.given {
-            march.tolerate(self.looser() * given);
+    /// Before a cycle of so many instants behind its first; whether it is likely to be the last, and solved so that it may be. Of more instants
+    /// than the march keeps none is: to record beside the search would take as much memory again.
+    pub(super) fn begin_cycle(&self, march: &mut March<'_>, instants: usize) -> bool {
+        let Some(given) = self.given else {
+            return false;
+        };
+        march.tolerate(self.looser() * given);
+        if self.quick_cycles == 0 {
+            march.forget_last_cycle();
+            return false;
         }
-        match self.quick_cycles > 0 {
-            true => march.begin_like_the_last(instants),
-            false => march.forget_last_cycle(),
+        march.begin_like_the_last(instants);
+        let is_near =
+            march.knows_last_cycle() && self.expected <= Self::NEAR_THE_END * self.of_cycle;
+        if is_near {
+            march.tolerate(given);
+            march.tighten_for_good_guesses();
         }
+        is_near
     }
 
     /// Whether the distance of the cycle just solved is what it seems.

@@ -43,6 +43,26 @@ pub struct Steady {
     pub distance: f64,
 }
 
+/// Takes in a cycle while it is solved.
+pub(crate) trait Record {
+    /// A cycle begins at the instant where the march stands; what was taken in of one before is of no use.
+    ///
+    /// # Errors
+    /// As [`March::step`].
+    fn begin(&mut self, march: &mut March<'_>) -> Result<(), ContactError>;
+
+    /// Takes the step of this number, counted from 1, in its stages; `drive` tells what is prescribed at a fraction of it.
+    ///
+    /// # Errors
+    /// As [`March::step`].
+    fn step(
+        &mut self,
+        march: &mut March<'_>,
+        step: usize,
+        in_stages: (&[Stage], &dyn Fn(f64) -> Prescribed),
+    ) -> Result<(), ContactError>;
+}
+
 /// Cycles that may pass without a better memory before the acceleration starts anew from the best: at the edge of a strongly
 /// relaxing contact cells come and go between cycles, and what was learned of them leads in circles.
 const PATIENCE: usize = 10;
@@ -63,7 +83,22 @@ pub fn find(
     settings: SteadySettings,
     stop: &dyn Fn() -> bool,
 ) -> Result<Steady, ContactError> {
-    march.keeping_tolerance(|march| find_by(march, (cycle, stop), start, settings))
+    let (found, _) = find_recorded(march, (cycle, stop), start, settings, None)?;
+    Ok(found)
+}
+
+/// As [`find`]; whether `record` took in the cycle with which the search ends. It is given each cycle that is likely to be that one.
+///
+/// # Errors
+/// As [`find`].
+pub(crate) fn find_recorded(
+    march: &mut March<'_>,
+    (cycle, stop): (&Cycle<'_>, &dyn Fn() -> bool),
+    start: Option<Vec<f64>>,
+    settings: SteadySettings,
+    record: Option<&mut dyn Record>,
+) -> Result<(Steady, bool), ContactError> {
+    march.keeping_tolerance(|march| find_by(march, (cycle, stop), start, settings, record))
 }
 
 fn find_by(
@@ -71,16 +106,23 @@ fn find_by(
     (cycle, stop): (&Cycle<'_>, &dyn Fn() -> bool),
     start: Option<Vec<f64>>,
     settings: SteadySettings,
-) -> Result<Steady, ContactError> {
+    mut record: Option<&mut dyn Record>,
+) -> Result<(Steady, bool), ContactError> {
     let mut instants = Instants::new(march, start.is_some(), settings);
     let map = CycleMap::new(march, cycle, stop);
     let mut search = Search::begin(march, cycle, start)?;
-    let mut converged = false;
+    let (mut converged, mut is_recorded) = (false, false);
     let mut run = Run::new(march, cycle);
     let mut update = vec![0.0; search.start.len()];
     while search.cycles < settings.max_cycles {
-        instants.begin_cycle(march, cycle.steps * run.stages.len());
-        let Some(reached) = map.cycle(march, &search.start, &mut run, &mut update)? else {
+        let is_near = instants.begin_cycle(march, cycle.steps * run.stages.len());
+        let of_this: Option<&mut dyn Record> = match &mut record {
+            Some(record) if is_near => Some(&mut **record),
+            _ => None,
+        };
+        is_recorded = of_this.is_some();
+        let reached = map.cycle(march, &search.start, (&mut run, of_this), &mut update)?;
+        let Some(reached) = reached else {
             break;
         };
         search.cycles += 1;
@@ -93,11 +135,12 @@ fn find_by(
         map.correct(&run.contact, &mut update);
         search.advance(reached.missing / run.scale, &update, &map.weights);
     }
-    Ok(Steady {
+    let found = Steady {
         converged,
         cycles: search.cycles,
         distance: search.distance,
-    })
+    };
+    Ok((found, converged && is_recorded))
 }
 
 /// How far a cycle is from the stabilised one.
@@ -140,12 +183,12 @@ impl<'a> CycleMap<'a> {
     }
 
     /// Solves the cycle from this memory and puts into `change` what it does to the memory. Its first instant is a jump: the pressure
-    /// that belongs to the memory and to the drive's value there. `None` where it was stopped.
+    /// that belongs to the memory and to the drive's value there. It is recorded where asked to. `None` where it was stopped.
     pub(super) fn cycle(
         &self,
         march: &mut March<'_>,
         start: &[f64],
-        run: &mut Run,
+        (run, mut record): (&mut Run, Option<&mut dyn Record>),
         change: &mut [f64],
     ) -> Result<Option<Reached>, ContactError> {
         let (remaining, drive) = (&self.remaining, self.cycle.drive);
@@ -157,13 +200,20 @@ impl<'a> CycleMap<'a> {
         let share = 1.0 / self.cycle.steps as f64;
         let first = march.jump(drive(0.0))?;
         run.sample(&first);
+        if let Some(record) = record.as_deref_mut() {
+            record.begin(march)?;
+        }
         march.begin_cycle(remaining.first_held());
         for step in 1..=self.cycle.steps {
             if (self.stop)() {
                 return Ok(None);
             }
             let begun = (step - 1) as f64;
-            march.step_in_stages(&run.stages, |end| drive((begun + end) * share))?;
+            let drive = |end| drive((begun + end) * share);
+            match record.as_deref_mut() {
+                Some(record) => record.step(march, step, (&run.stages, &drive))?,
+                None => march.step_in_stages(&run.stages, drive)?,
+            }
             if let Some(solution) = march.solution() {
                 run.sample(&solution);
             }
@@ -273,5 +323,124 @@ impl Run {
     fn sample(&mut self, solution: &Solution) {
         self.load_n.push(solution.load_n);
         self.approach_m.push(solution.approach_m);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::contact::Engine;
+    use crate::contact::axisymmetric::{Axisymmetric, Edge};
+    use crate::contact::half_space::convolution::Convolution;
+    use crate::contact::half_space::grid::Grid;
+    use crate::contact::half_space::{HalfSpace, SolverSettings};
+    use crate::history::TimeRule;
+    use crate::material::classical::zener;
+
+    /// The loads (N) of every cycle that was given to it.
+    #[derive(Default)]
+    struct Loads(Vec<Vec<f64>>);
+
+    impl Record for Loads {
+        fn begin(&mut self, march: &mut March<'_>) -> Result<(), ContactError> {
+            self.0.push(vec![march.solution().unwrap().load_n]);
+            Ok(())
+        }
+
+        fn step(
+            &mut self,
+            march: &mut March<'_>,
+            step: usize,
+            (stages, drive): (&[Stage], &dyn Fn(f64) -> Prescribed),
+        ) -> Result<(), ContactError> {
+            march.step_in_stages(stages, drive)?;
+            let loads = self.0.last_mut().unwrap();
+            assert_eq!(loads.len(), step);
+            loads.push(march.solution().unwrap().load_n);
+            Ok(())
+        }
+    }
+
+    /// What a search of a pressed sphere finds on this engine, with the loads it recorded and the march at its end.
+    fn searched<T>(
+        engine: &mut dyn Engine,
+        (steps, tolerance, is_quick): (usize, f64, bool),
+        ask: impl FnOnce((Steady, bool), Loads, &mut March<'_>) -> T,
+    ) -> T {
+        let mut march = March::new(engine, zener(1e9, 1e9, 1.0).unwrap(), TimeRule::Linear);
+        let cycle = Cycle {
+            drive: &|fraction| Prescribed::ApproachM(2e-7 * (1.5 + (TAU * fraction).sin())),
+            mean: Prescribed::ApproachM(3e-7),
+            period_s: 3.0,
+            steps,
+        };
+        let settings = SteadySettings {
+            tolerance,
+            max_cycles: 100,
+            is_quick,
+        };
+        let mut loads = Loads::default();
+        let stop = || false;
+        let found = find_recorded(
+            &mut march,
+            (&cycle, &stop),
+            None,
+            settings,
+            Some(&mut loads),
+        );
+        ask(found.unwrap(), loads, &mut march)
+    }
+
+    #[test]
+    fn the_cycle_that_ends_a_search_is_recorded_where_it_was_expected_to() {
+        let grid = Grid::square(16, 2e-5).unwrap();
+        let places = (0..grid.cells()).map(|cell| grid.center(cell));
+        let gap_m: Vec<f64> = places.map(|(x, y)| (x * x + y * y) / 0.02).collect();
+        let operator = Arc::new(Convolution::new(grid).unwrap());
+        let settings = SolverSettings::default();
+        let mut on_cells = HalfSpace::new(operator, gap_m.clone(), true, settings);
+        let mut kept = 0;
+        for steps in [9, 40, 200] {
+            for tolerance in [1e-2, 1e-4, 1e-6] {
+                let given = (steps, tolerance, true);
+                searched(
+                    &mut on_cells,
+                    given,
+                    |(found, is_recorded), loads, march| {
+                        assert!(found.converged && found.distance <= tolerance);
+                        assert!(loads.0.len() <= found.cycles);
+                        let Some(last) = loads.0.last().filter(|_| is_recorded) else {
+                            return;
+                        };
+                        kept += 1;
+                        let end_n = march.solution().unwrap().load_n;
+                        assert!(last.len() == steps + 1 && last.last() == Some(&end_n));
+                        assert!((last[0] / end_n - 1.0).abs() < 10.0 * tolerance);
+                    },
+                );
+            }
+        }
+        assert!(kept >= 6, "{kept}");
+        // Neither where no cycle may be less exact than the last, nor of springs, whose further cycle is nearer still and costs little.
+        searched(
+            &mut on_cells,
+            (40, 1e-4, false),
+            |(found, is_recorded), loads, _| {
+                assert!(found.converged && !is_recorded && loads.0.is_empty());
+            },
+        );
+        let width_m = 3e-6;
+        let gaps_m = (0..100).map(|i| ((f64::from(i) + 0.5) * width_m).powi(2) / 0.01);
+        let mut springs = Axisymmetric::new(width_m, gaps_m.collect(), Edge::Open, true);
+        searched(
+            &mut springs,
+            (40, 1e-4, true),
+            |(found, is_recorded), loads, _| {
+                assert!(found.converged && !is_recorded && loads.0.is_empty());
+            },
+        );
     }
 }

@@ -48,5 +48,6 @@ mod remaining;
 
 pub(crate) use anderson::Anderson;
 pub use iteration::{Cycle, Steady, SteadySettings, find};
+pub(crate) use iteration::{Record, find_recorded};
 pub(crate) use newton::find_by_newton;
 pub use remaining::Remaining;

@@ -95,7 +95,7 @@ impl<'a> Newton<'a> {
         start: &[f64],
     ) -> Result<Option<Reached>, ContactError> {
         let (run, change) = (&mut self.tried, &mut self.tried_change);
-        let reached = self.map.cycle(march, start, run, change)?;
+        let reached = self.map.cycle(march, start, (run, None), change)?;
         self.cycles += usize::from(reached.is_some());
         Ok(reached)
     }

@@ -10,10 +10,6 @@ use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised};
 use crate::sweep::plan::Method;
 use crate::sweep::record::CaseResult;
 
-/// The tolerance of instants that begin at the same instant of the last cycle of a search, over that given: guesses that good may be within
-/// what is given as they are, all on one side of the solution. What an iteration leaves is far below it.
-const OF_GOOD_GUESSES: f64 = 0.03;
-
 /// Cycles of one case in one number of steps.
 pub(super) struct Cycles<'a> {
     contact: &'a Contact<'a>,
@@ -80,8 +76,8 @@ impl<'a> Cycles<'a> {
             match recording.as_deref_mut() {
                 None => march.step_in_stages(&self.stages, drive)?,
                 Some(recording) => {
-                    march.step_dissipating(&self.stages, drive, &mut recording.dissipation)?;
-                    recording.see(march, step, fraction(1.0) * self.contact.period_s())?;
+                    let time_s = fraction(1.0) * self.contact.period_s();
+                    recording.step(march, (&self.stages, &drive), (step, time_s))?;
                 }
             }
             self.see(march);
@@ -112,17 +108,23 @@ impl<'a> Cycles<'a> {
         let contact = self.contact;
         let mut recording = Recording::new(contact, march, self.steps)?;
         march.keeping_tolerance(|march| {
-            if march.knows_last_cycle()
-                && let Some(given) = march.tolerance()
-            {
-                march.tolerate(OF_GOOD_GUESSES * given);
-            }
+            march.tighten_for_good_guesses();
             self.run(march, Some(&mut recording))
         })?;
         if contact.cycle.at_cycle.is_none() && !self.is_within_tolerance() {
             return Ok(None);
         }
         recording.result(contact, march).map(Some)
+    }
+
+    /// What a search recorded of the cycle that ended it.
+    pub fn recorded(
+        &mut self,
+        recording: Recording,
+        march: &mut March<'_>,
+    ) -> Result<CaseResult, CaseError> {
+        self.start = march.memory().variables().to_vec();
+        recording.result(self.contact, march)
     }
 
     /// Solves the next cycle; that in which the march ends is recorded.

@@ -1,9 +1,10 @@
 //! A cycle as it is recorded: sample by sample, and what the record says of it.
 
-use crate::contact::ContactError;
 use crate::contact::surface::Surface;
+use crate::contact::{ContactError, Prescribed};
 use crate::cycle::{self, ContactDuty, Extrema, Loop, LoopAnalysis, LoopError, Smoothness};
-use crate::history::{Dissipation, March, NodalWork};
+use crate::history::{Dissipation, March, NodalWork, Stage};
+use crate::steady::Record;
 use crate::sweep::case::lift_off::{contact_duty, smoothness};
 use crate::sweep::case::pressure::Pressures;
 use crate::sweep::case::stabilise::{CaseError, Contact, Wanted};
@@ -18,7 +19,7 @@ const LARGEST_ROUNDING: f64 = 1e-6;
 /// What a recorded cycle is watched for, as far as it is wanted.
 pub(super) struct Recording {
     samples: Loop,
-    pub dissipation: Dissipation,
+    dissipation: Dissipation,
     pressures: Option<Pressures>,
     tangent_radius: Option<TangentRadius>,
     /// Only of a cycle that closes.
@@ -47,13 +48,14 @@ impl Recording {
         })
     }
 
-    /// Takes in the instant at the end of a step.
-    pub fn see(
+    /// Takes a step of this number, whose end is at this time, and the instant there.
+    pub fn step(
         &mut self,
         march: &mut March<'_>,
-        step: usize,
-        time_s: f64,
+        (stages, drive): (&[Stage], &dyn Fn(f64) -> Prescribed),
+        (step, time_s): (usize, f64),
     ) -> Result<(), ContactError> {
+        march.step_dissipating(stages, drive, &mut self.dissipation)?;
         self.sample(march, time_s)?;
         if let Some(pressures) = &mut self.pressures {
             pressures.see(march, step, time_s)?;
@@ -174,6 +176,35 @@ impl Recording {
         let nu = material.poisson_ratio().unwrap_or(0.0);
         let moduli_pa = analysis.equivalent_moduli_pa(radius_m, nu)?;
         Some(material.of_loop(moduli_pa, contact.angular_frequency_rad_per_s))
+    }
+}
+
+/// Records cycles of a search, in so many steps, of which the last is kept.
+pub(super) struct Recorder<'a> {
+    pub contact: &'a Contact<'a>,
+    pub steps: usize,
+    pub recording: Option<Recording>,
+}
+
+impl Record for Recorder<'_> {
+    fn begin(&mut self, march: &mut March<'_>) -> Result<(), ContactError> {
+        let mut recording = Recording::new(self.contact, march, self.steps)?;
+        recording.sample(march, 0.0)?;
+        self.recording = Some(recording);
+        Ok(())
+    }
+
+    fn step(
+        &mut self,
+        march: &mut March<'_>,
+        step: usize,
+        in_stages: (&[Stage], &dyn Fn(f64) -> Prescribed),
+    ) -> Result<(), ContactError> {
+        let time_s = step as f64 / self.steps as f64 * self.contact.period_s();
+        match &mut self.recording {
+            Some(recording) => recording.step(march, in_stages, (step, time_s)),
+            None => Ok(()),
+        }
     }
 }
 

@@ -9,10 +9,11 @@ use crate::cycle::LoopError;
 use crate::engine::{EngineError, prescribed};
 use crate::history::{March, Memory, TimeRule, Work};
 use crate::material::Creep;
-use crate::steady::{self, Steady, SteadySettings};
+use crate::steady::{self, Record, Steady, SteadySettings};
 use crate::sweep::case::SetupError;
 use crate::sweep::case::checkpoint::Checkpoints;
 use crate::sweep::case::cycles::Cycles;
+use crate::sweep::case::recording::Recorder;
 use crate::sweep::case::solid::Solid;
 use crate::sweep::plan::{Condition, CyclePlan, Method};
 use crate::sweep::record::CaseResult;
@@ -308,7 +309,12 @@ impl Contact<'_> {
         let mut march = March::new(engine, self.compliance.clone(), self.time_rule);
         let stop = || self.interrupt.load(Ordering::Relaxed);
         let most = SEARCH_CYCLES.min(self.cycle.max_cycles);
-        let mut find = |part: f64, start: Option<Vec<f64>>, max_cycles: usize| {
+        let mut recorder = Recorder {
+            contact: self,
+            steps,
+            recording: None,
+        };
+        let mut find = |march: &mut March<'_>, part: f64, start: Option<Vec<f64>>, max_cycles| {
             let drive = |fraction| self.in_part(part, fraction);
             let cycle = steady::Cycle {
                 drive: &drive,
@@ -322,18 +328,21 @@ impl Contact<'_> {
                 // What is not found at once is looked for with all care.
                 is_quick: parts.is_empty(),
             };
-            let found = steady::find(&mut march, &cycle, start, settings, &stop)?;
+            let record: Option<&mut dyn Record> = match part == 1.0 {
+                true => Some(&mut recorder),
+                false => None,
+            };
+            let ended = steady::find_recorded(march, (&cycle, &stop), start, settings, record)?;
             self.check_interrupted()?;
-            let memory = (found.converged).then(|| march.memory().variables().to_vec());
-            Ok::<_, CaseError>((found, memory))
+            Ok::<_, CaseError>(ended)
         };
         let mut before = 0;
         for &part in parts {
-            let (found, memory) = find(part, start, most.min(PART_CYCLES))?;
+            let (found, _) = find(&mut march, part, start, most.min(PART_CYCLES))?;
             before += found.cycles;
-            start = memory;
+            start = (found.converged).then(|| march.memory().variables().to_vec());
         }
-        let (mut found, _) = find(1.0, start, most)?;
+        let (mut found, is_recorded) = find(&mut march, 1.0, start, most)?;
         if !found.converged && !parts.is_empty() {
             before += found.cycles;
             found = self.search_by_newton(&mut march, steps)?;
@@ -344,8 +353,11 @@ impl Contact<'_> {
         if !found.converged {
             return Ok(cycles.ended(Method::Direct, &march, None));
         }
-        // The recorded cycle starts from where the search ended, and is nearer still.
-        let recorded = cycles.record(&mut march)?;
+        let recorded = match recorder.recording.take_if(|_| is_recorded) {
+            Some(recording) => Some(cycles.recorded(recording, &mut march)?),
+            // The recorded cycle starts from where the search ended, and is nearer still.
+            None => cycles.record(&mut march)?,
+        };
         Ok(cycles.ended(Method::Direct, &march, recorded))
     }
 

@@ -189,7 +189,8 @@ block_with_defaults! {
         at_cycle: Option<usize> = None => "at_cycle", Kind::Integer(1..=100_000_000);
         /// Whether every case is also solved with coarser steps and nodes to estimate its errors.
         error_bars: bool = true => "error_bars", Kind::Flag;
-        /// Largest relative error of every loss: steps, and springs or cells, are chosen to reach it. Same as `--accuracy`.
+        /// Largest relative error of every loss: steps, and springs or cells, are chosen to reach it. Same as `--accuracy`. A sweep whose
+        /// `steps` are left out begins at 100.
         accuracy: Option<f64> = None => "accuracy", Kind::Number(
             tolerance("1e-3").within(ACCURACY).or_else("for example accuracy = 1e-3, a thousandth of the loss")
         );
@@ -200,6 +201,12 @@ block_with_defaults! {
 const ACCURACY: Limits = Limits::of(1e-8..1.0);
 
 impl CyclePlan {
+    /// What counts in the file of a sweep to an accuracy: most cases take no more steps than that to a thousandth.
+    pub const TO_AN_ACCURACY: Self = Self {
+        steps: 100,
+        ..Self::DEFAULT
+    };
+
     fn in_conflict(&self) -> Option<Conflict> {
         (self.at_cycle.is_some() && self.method == Method::Direct).then(|| Conflict {
             key: "at_cycle",

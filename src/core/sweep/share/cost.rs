@@ -264,6 +264,8 @@ impl Setup {
         const OF_MARCH: usize = 5;
         /// The steps (bytes per node) at which a node came into contact and left it.
         const CONTACT_BYTES: usize = 56;
+        /// Fields of energies and work that are added up along a recorded cycle, but for those of branches.
+        const RECORDING_FIELDS: usize = 12;
         /// What the record says of a cell of the surface (bytes).
         const RECORD_BYTES: usize = 8;
         let plan = self.plan();
@@ -278,6 +280,12 @@ impl Setup {
             (0, _) | (_, Method::March) => 0,
             _ => kept_bytes(plan.cycle.steps << usize::from(rings(compliance)), nodes),
         };
-        engines.predicted_memory_bytes(branches) + (searched + recorded + guessed) as u64
+        // Where guesses are kept, the cycle that may end a search is recorded beside it.
+        let recording = match guessed > 0 {
+            true => nodes * (2 * branches + RECORDING_FIELDS) * size_of::<f64>(),
+            false => 0,
+        };
+        engines.predicted_memory_bytes(branches)
+            + (searched + recorded + guessed + recording) as u64
     }
 }
