@@ -8,18 +8,23 @@ use multiversion::multiversion;
 
 const LANES: usize = 8;
 
+/// A number of either precision; all are added in double.
+pub(crate) trait Number: Copy + Into<f64> {}
+
+impl<T: Copy + Into<f64>> Number for T {}
+
 /// Sums of `terms(a, b)` over pairs, `N` at a time.
 #[inline(always)]
-pub(crate) fn sums<const N: usize>(
-    a: &[f64],
-    b: &[f64],
+pub(crate) fn sums<const N: usize, A: Number, B: Number>(
+    a: &[A],
+    b: &[B],
     terms: impl Fn(f64, f64) -> [f64; N],
 ) -> [f64; N] {
     let mut lanes = [[0.0; LANES]; N];
     let ((whole_a, rest_a), (whole_b, rest_b)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
     for (a, b) in whole_a.iter().zip(whole_b) {
         for lane in 0..LANES {
-            let terms = terms(a[lane], b[lane]);
+            let terms = terms(a[lane].into(), b[lane].into());
             for n in 0..N {
                 lanes[n][lane] += terms[n];
             }
@@ -30,7 +35,7 @@ pub(crate) fn sums<const N: usize>(
         totals[n] = lanes[n].iter().sum();
     }
     for (&a, &b) in rest_a.iter().zip(rest_b) {
-        let terms = terms(a, b);
+        let terms = terms(a.into(), b.into());
         for n in 0..N {
             totals[n] += terms[n];
         }
@@ -61,18 +66,18 @@ pub(crate) fn sum_over_triples(
 
 /// Adds this many times a field to another.
 #[multiversion(targets("x86_64+avx2"))]
-pub(crate) fn add_scaled(to: &mut [f64], factor: f64, field: &[f64]) {
+pub(crate) fn add_scaled<T: Number>(to: &mut [f64], factor: f64, field: &[T]) {
     for (to, value) in to.iter_mut().zip(field) {
-        *to += factor * value;
+        *to += factor * (*value).into();
     }
 }
 
-pub(crate) fn sum(a: &[f64]) -> f64 {
+pub(crate) fn sum<T: Number>(a: &[T]) -> f64 {
     sums(a, a, |a, _| [a])[0]
 }
 
 #[multiversion(targets("x86_64+avx2"))]
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn dot<A: Number, B: Number>(a: &[A], b: &[B]) -> f64 {
     sums(a, b, |a, b| [a * b])[0]
 }
 
@@ -83,12 +88,12 @@ pub(crate) fn least(a: &[f64]) -> f64 {
 
 /// The least of a function of the values; infinite for none.
 #[inline(always)]
-pub(crate) fn least_of(a: &[f64], function: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn least_of<T: Number>(a: &[T], function: impl Fn(f64) -> f64) -> f64 {
     let mut lanes = [f64::INFINITY; LANES];
     let (whole, rest) = a.as_chunks::<LANES>();
     for a in whole {
         for lane in 0..LANES {
-            let value = function(a[lane]);
+            let value = function(a[lane].into());
             lanes[lane] = if value < lanes[lane] {
                 value
             } else {
@@ -96,7 +101,7 @@ pub(crate) fn least_of(a: &[f64], function: impl Fn(f64) -> f64) -> f64 {
             };
         }
     }
-    let rest = rest.iter().map(|&a| function(a));
+    let rest = rest.iter().map(|&a| function(a.into()));
     lanes.into_iter().chain(rest).fold(f64::INFINITY, f64::min)
 }
 

@@ -22,7 +22,7 @@ use preconditioning::Continued;
 use problem::Waiting;
 pub(super) use problem::{Elastic, InstantOfCells, IterateState, Scratches, Work};
 pub(super) use spans::over_blocks;
-use spans::{Run, Spans, copy};
+use spans::{Run, Spans};
 
 /// Steps after which the residual must have halved.
 const PATIENCE: usize = 40;
@@ -39,9 +39,9 @@ pub(super) struct ActiveSet {
     pub(super) pressure: Vec<f64>,
     /// Gap before the approach is taken off: g + B (A p + H) (m).
     pub(super) gap_m: Vec<f64>,
-    /// What an operator is applied to, and what comes of it.
-    pub(super) field: Vec<f64>,
-    pub(super) image: Vec<f64>,
+    /// What an operator that shows the way or changes the gap is applied to, and what comes of it, in its precision.
+    field: Vec<f32>,
+    image: Vec<f32>,
     contact: Spans,
     /// How far the gap inside the contact was from none when last seen (m).
     misfit_m: f64,
@@ -59,12 +59,10 @@ pub(super) struct ActiveSet {
 impl ActiveSet {
     /// Makes the fields fit this many cells. Allocates only what was never needed before.
     pub(super) fn fit(&mut self, cells: usize) {
-        for field in [
-            &mut self.pressure,
-            &mut self.gap_m,
-            &mut self.field,
-            &mut self.image,
-        ] {
+        for field in [&mut self.pressure, &mut self.gap_m] {
+            field.resize(cells, 0.0);
+        }
+        for field in [&mut self.field, &mut self.image] {
             field.resize(cells, 0.0);
         }
     }
@@ -261,7 +259,7 @@ impl ActiveSet {
             work.steps += 1;
             let largest_m;
             (has_negative, least_outside_m, largest_m) =
-                self.advance(problem.compliance_per_pa, step);
+                self.advance(step * problem.lift_m(), step);
             work.count_change(largest_m);
             let waits = waits && inner + 1 < STEPS_PER_CONTACT;
             if has_negative && !waits {
@@ -277,7 +275,7 @@ impl ActiveSet {
     /// approach of which it is the gap.
     fn update_residual(&mut self, problem: &InstantOfCells<'_>) -> (f64, f64) {
         let (pressure, gap_m) = (&self.pressure, &self.gap_m);
-        let found = self.contact.each([], [], |block, [], []| {
+        let found = self.contact.over(|block| {
             let (pressure, gap_m) = (
                 &pressure[block.window.clone()],
                 &gap_m[block.window.clone()],
@@ -316,7 +314,7 @@ impl ActiveSet {
                     let both = field[window].iter_mut().zip(&mut residual[contact]);
                     for ((f, r), gap) in both.zip(gap_m) {
                         *r = level_m - gap;
-                        *f = *r;
+                        *f = *r as f32;
                     }
                 }
                 [misfit, least_negated_m]
@@ -348,28 +346,28 @@ impl ActiveSet {
                     *t = z + beta * *t;
                 }
                 for Run { window, contact } in block.runs() {
-                    copy(&direction[contact], &mut field[window]);
+                    let both = field[window].iter_mut().zip(&direction[contact]);
+                    both.for_each(|(to, from)| *to = *from as f32);
                 }
                 [dot(&residual[at()], direction)]
             });
         let slope = found.total(0);
         (problem.elastic).displace(&self.field, &mut self.image, scratch)?;
         let (direction, image) = (&self.direction, &self.image);
-        let found = self.contact.each([], [], |block, [], []| {
+        let found = self.contact.over(|block| {
             let direction = &direction[block.contact.clone()];
             let image = &image[block.window.clone()];
             let of_run = |run: Run| dot(&direction[run.contact], &image[run.window]);
             [block.runs().map(of_run).sum()]
         });
-        let curvature = problem.compliance_per_pa * found.total(0);
+        let curvature = problem.lift_m() * found.total(0);
         let step = slope / curvature;
         Ok((curvature > 0.0 && step.is_finite()).then_some(step))
     }
 
-    /// Moves pressure and gap along the direction. Returns whether a pressure has turned negative, the least gap (m) outside the contact,
-    /// before the approach is taken off, and the largest change of a gap (m).
-    fn advance(&mut self, compliance_per_pa: f64, step: f64) -> (bool, f64, f64) {
-        let lift = step * compliance_per_pa;
+    /// Moves the pressure by `step` times the direction, and the gap by `lift` (m) times its displacement. Returns whether a pressure has
+    /// turned negative, the least gap (m) outside the contact, before the approach is taken off, and the largest change of a gap (m).
+    fn advance(&mut self, lift: f64, step: f64) -> (bool, f64, f64) {
         let (direction, image) = (&self.direction, &self.image);
         let window = [&mut self.gap_m[..], &mut self.pressure[..]];
         let found = self
@@ -405,7 +403,7 @@ impl ActiveSet {
             None => 1.0,
             Some(target) => {
                 let pressure = &self.pressure;
-                let kept = self.contact.each([], [], |block, [], []| {
+                let kept = self.contact.over(|block| {
                     let pressure = &pressure[block.window.clone()];
                     let of_run = |run: Run| {
                         let own = &pressure[run.window];
@@ -416,21 +414,27 @@ impl ActiveSet {
                 target / kept.total(0)
             }
         };
-        let window = [&mut self.pressure[..], &mut self.field[..]];
+        let kept = |p: f64| scale * p.max(0.0);
+        let pressure = &self.pressure;
         self.contact
-            .each(window, [], |block, [pressure, field], []| {
+            .each([&mut self.field[..]], [], |block, [field], []| {
+                let pressure = &pressure[block.window.clone()];
                 for Run { window, .. } in block.runs() {
-                    let pressures = pressure[window.clone()].iter_mut();
-                    for (p, change) in pressures.zip(&mut field[window]) {
-                        let kept = scale * p.max(0.0);
-                        *change = kept - *p;
-                        *p = kept;
+                    let changes = field[window.clone()].iter_mut();
+                    for (change, p) in changes.zip(&pressure[window]) {
+                        *change = (kept(*p) - p) as f32;
                     }
                 }
                 []
             });
+        self.contact
+            .each([&mut self.pressure[..]], [], |block, [pressure], []| {
+                let pressures = block.runs().map(|run| run.window);
+                pressures.for_each(|run| pressure[run].iter_mut().for_each(|p| *p = kept(*p)));
+                []
+            });
         (problem.elastic).displace(&self.field, &mut self.image, scratch)?;
-        let (image, lift) = (&self.image, problem.compliance_per_pa);
+        let (image, lift) = (&self.image, problem.lift_m());
         let found = self
             .contact
             .each([&mut self.gap_m], [], |block, [gap_m], []| {

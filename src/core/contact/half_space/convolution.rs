@@ -277,32 +277,28 @@ impl Convolution {
         displacement: &mut [f64],
         scratch: &mut Scratch,
     ) -> Result<(), ConvolutionError> {
-        self.apply_in(&self.operators.product, pressure, displacement, scratch)
-    }
-
-    /// The same in single precision, to [`SINGLE`].
-    pub(super) fn apply_nearly(
-        &self,
-        pressure: &[f64],
-        displacement: &mut [f64],
-        scratch: &mut Scratch<f32>,
-    ) -> Result<(), ConvolutionError> {
-        self.apply_in(&self.operators.nearly, pressure, displacement, scratch)
-    }
-
-    fn apply_in<T: Precision>(
-        &self,
-        product: &SpectralProduct<T>,
-        pressure: &[f64],
-        displacement: &mut [f64],
-        scratch: &mut Scratch<T>,
-    ) -> Result<(), ConvolutionError> {
         let rows = 0..self.grid.cells_y();
-        product.apply(pressure, displacement, rows, scratch)?;
+        (self.operators.product).apply(pressure, displacement, rows, scratch)?;
         if self.scale_m != 1.0 {
             displacement.iter_mut().for_each(|u| *u *= self.scale_m);
         }
         Ok(())
+    }
+
+    /// The same in single precision, to [`SINGLE`], in units of [`Convolution::unit_m`].
+    pub(super) fn apply_nearly(
+        &self,
+        pressure: &[f32],
+        displacement: &mut [f32],
+        scratch: &mut Scratch<f32>,
+    ) -> Result<(), ConvolutionError> {
+        let rows = 0..self.grid.cells_y();
+        (self.operators.nearly).apply(pressure, displacement, rows, scratch)
+    }
+
+    /// What a displacement in single precision is counted in (m).
+    pub(super) fn unit_m(&self) -> f64 {
+        self.scale_m
     }
 }
 
@@ -466,10 +462,15 @@ mod tests {
         }
     }
 
+    fn single(values: &[f64]) -> Vec<f32> {
+        values.iter().map(|value| *value as f32).collect()
+    }
+
     /// The largest difference of two fields over the largest value of the first.
-    fn largest_off(exact: &[f64], nearly: &[f64]) -> f64 {
+    fn largest_off(exact: &[f64], nearly: &[f32]) -> f64 {
         let size = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-        let off = exact.iter().zip(nearly).map(|(a, b)| (a - b).abs());
+        let off = exact.iter().zip(nearly);
+        let off = off.map(|(a, b)| (a - f64::from(*b)).abs());
         size(&mut { off }) / size(&mut exact.iter().map(|u| u.abs()))
     }
 
@@ -486,17 +487,20 @@ mod tests {
             let convolution = Convolution::new(grid).unwrap();
             let noise = random(grid.cells(), seed as u64);
             let mut undoing = vec![0.0; grid.cells()];
-            let (rows, mut single) = (0..grid.cells_y(), Scratch::default());
+            let (rows, mut scratch) = (0..grid.cells_y(), Scratch::default());
             let window = convolution.window(grid.cells_x(), grid.cells_y()).unwrap();
             let preconditioner = window.preconditioner;
             preconditioner
-                .apply(&noise, &mut undoing, rows.clone(), &mut single)
+                .apply(&single(&noise), &mut undoing, rows.clone(), &mut scratch)
                 .unwrap();
-            for pressure in [&noise, &undoing] {
-                let exact = displacement(&convolution, pressure);
-                let mut nearly = vec![f64::NAN; grid.cells()];
+            // The noise as it was before it was rounded.
+            let double = |values: &[f32]| values.iter().map(|v| f64::from(*v)).collect();
+            for pressure in [&noise, &double(&undoing)] {
+                let exact_m = displacement(&convolution, pressure).into_iter();
+                let exact: Vec<f64> = exact_m.map(|u| u / convolution.unit_m()).collect();
+                let mut nearly = vec![f32::NAN; grid.cells()];
                 convolution
-                    .apply_nearly(pressure, &mut nearly, &mut single)
+                    .apply_nearly(&single(pressure), &mut nearly, &mut scratch)
                     .unwrap();
                 worst = worst.max(largest_off(&exact, &nearly));
             }
@@ -504,12 +508,12 @@ mod tests {
                 continue;
             }
             let period = PeriodicOperator::new(grid);
-            (period.apply_inverse(&noise, &mut undoing, rows, &mut single)).unwrap();
-            for pressure in [&noise, &undoing] {
+            (period.apply_inverse(&single(&noise), &mut undoing, rows, &mut scratch)).unwrap();
+            for pressure in [&noise, &double(&undoing)] {
                 let (mut exact, mut nearly) =
-                    (vec![0.0; grid.cells()], vec![f64::NAN; grid.cells()]);
+                    (vec![0.0; grid.cells()], vec![f32::NAN; grid.cells()]);
                 (period.apply(pressure, &mut exact, &mut Scratch::default())).unwrap();
-                (period.apply_nearly(pressure, &mut nearly, &mut single)).unwrap();
+                (period.apply_nearly(&single(pressure), &mut nearly, &mut scratch)).unwrap();
                 // The mean of one cell alone, which is left out, is all there is of it.
                 if grid.cells() > 1 {
                     worst = worst.max(largest_off(&exact, &nearly));
@@ -654,9 +658,9 @@ mod tests {
                 let mut scratch = Scratch::default();
                 Preconditioner::on(grid, None)
                     .unwrap()
-                    .apply(field, &mut image, 0..grid.cells_y(), &mut scratch)
+                    .apply(&single(field), &mut image, 0..grid.cells_y(), &mut scratch)
                     .unwrap();
-                image
+                image.into_iter().map(f64::from).collect::<Vec<f64>>()
             };
             let own = quarter.unfolded(&applied(&quarter, &field));
             let expected = applied(&whole, &unfolded);

@@ -1,11 +1,11 @@
 //! How much memory a march on cells takes.
 //!
-//! All of it is fields of one number per cell, and few of them: eight bytes a cell for each.
+//! All of it is fields of one number per cell, and few of them, counted here in fields of eight bytes a cell.
 //!
 //! ```text
 //! march         pressure, history, and the two pressures before, which help to foresee the next            4
 //! body          a memory variable for every retardation time, and one for a flow term                      1 each
-//! instant       pressure, gap, operand and result of an operator                                           4
+//! instant       pressure, gap; operand and result of an operator in single precision                       3
 //!               on cells in contact: residual, preconditioned now and before, direction, constant          5
 //! half-space    gap; history, sources and displacement in their window                                     4
 //!               spectra of windows that the contact has outgrown                                          2
@@ -13,7 +13,7 @@
 //! operator      spectrum and work space on the grid filled up with zeros (period: on the grid itself)      3 (1.25)
 //!               the same in single precision, for changes of a gap                                         1.5 (0.625)
 //! inverse       the same on the grid itself, in single precision                                           0.625
-//! patches       of squares of cells: weights, values, sums, and their operator                             0.25
+//! patches       of squares of cells: weights, values, sums, and their operator                             0.15
 //! map           heights of the surface, of rough ones and those of files                                   1
 //! ```
 //!
@@ -23,7 +23,7 @@ use super::convolution::numbers_of_operators;
 use super::grid::Grid;
 
 /// Fields of march and instant.
-const OF_ALL: usize = 4 + 4 + 5;
+const OF_ALL: usize = 4 + 3 + 5;
 /// Those that a half-space has beside, and a period.
 const OF_HALF_SPACE: usize = 4 + 2;
 const OF_PERIOD: usize = 2;

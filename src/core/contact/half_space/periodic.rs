@@ -128,11 +128,10 @@ impl Periodic {
         loop {
             let fields = &mut self.fields;
             let scratch = &mut self.scratches.convolution;
-            (self.operator).apply(&fields.pressure, &mut fields.image, scratch)?;
+            (self.operator).apply(&fields.pressure, &mut fields.gap_m, scratch)?;
             work.count_fresh_gap();
-            let lifted = fields.image.iter().zip(&self.free_gap_m);
-            for (gap, (image, free)) in fields.gap_m.iter_mut().zip(lifted) {
-                *gap = free + compliance_per_pa * image;
+            for (gap, free) in fields.gap_m.iter_mut().zip(&self.free_gap_m) {
+                *gap = free + compliance_per_pa * *gap;
             }
             let level_m = -sums::least_of(&fields.gap_m, |gap| -gap.abs());
             let period = Period {
@@ -199,17 +198,21 @@ impl Elastic for Period<'_> {
 
     fn displace(
         &self,
-        pressure: &[f64],
-        displacement: &mut [f64],
+        pressure: &[f32],
+        displacement: &mut [f32],
         scratch: &mut Scratches,
     ) -> Result<(), ConvolutionError> {
         (self.operator).apply_nearly(pressure, displacement, &mut scratch.changes)
     }
 
+    fn unit_m(&self) -> f64 {
+        1.0
+    }
+
     fn precondition(
         &self,
-        gap: &[f64],
-        pressure: &mut [f64],
+        gap: &[f32],
+        pressure: &mut [f32],
         rows: Range<usize>,
         scratch: &mut Scratches,
     ) -> Result<(), ConvolutionError> {

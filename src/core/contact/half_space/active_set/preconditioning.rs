@@ -30,7 +30,7 @@ impl ActiveSet {
         let total = self.apply_preconditioner(problem, scratch)?;
         let share = constant_sum.map(|constant_sum| total / constant_sum);
         let (residual, last, constant) = (&self.residual, &self.last, &self.constant);
-        let found = (self.contact).each([], [&mut self.preconditioned], |block, [], [z]| {
+        let found = (self.contact).on_contact([&mut self.preconditioned], |block, [z]| {
             let at = || block.contact.clone();
             if let Some(share) = share {
                 for (z, one) in z.iter_mut().zip(&constant[at()]) {
@@ -97,9 +97,9 @@ const WEIGHT_OF_MEAN: f64 = 1.0;
 pub(super) struct Continued {
     by: Option<Continuation>,
     /// Of every square: what the contact weighs there, values, and their weighted sums.
-    weights: Vec<f64>,
-    values: Vec<f64>,
-    sums: Vec<f64>,
+    weights: Vec<f32>,
+    values: Vec<f32>,
+    sums: Vec<f32>,
     scratch: Scratch<f32>,
 }
 
@@ -162,7 +162,7 @@ impl Continued {
         &mut self,
         contact: &Spans,
         elastic: &dyn Elastic,
-        (field, image): (&mut [f64], &mut [f64]),
+        (field, image): (&mut [f32], &mut [f32]),
         result: &mut [f64],
         scratch: &mut Scratches,
     ) -> Result<f64, ConvolutionError> {
@@ -204,7 +204,7 @@ impl Continued {
             values.fill(0.0);
             let first = block.window.start;
             side.each(block, grid.cells_x(), |square, cells| {
-                values[square] += value(first + cells.start..first + cells.end);
+                values[square] += value(first + cells.start..first + cells.end) as f32;
             });
         });
         if matches!(side, Side::Beyond) {
@@ -214,18 +214,19 @@ impl Continued {
         }
         by.sum(&self.values, &mut self.sums, &mut self.scratch)?;
         let of_mean = WEIGHT_OF_MEAN * sum(&self.values) / contact.cells() as f64;
-        self.sums.iter_mut().for_each(|sum| *sum += of_mean);
+        self.sums.iter_mut().for_each(|sum| *sum += of_mean as f32);
         Ok(())
     }
 
     /// Adds the sums of the squares to a field of the contact; returns its sum.
     fn add_sums(&self, contact: &Spans, grid: &Grid, field: &mut [f64]) -> f64 {
-        let found = contact.each([], [field], |block, [], [field]| {
+        let found = contact.on_contact([field], |block, [field]| {
             let sums = &self.sums[first_square(block, grid)..];
             let mut at = 0;
             Side::Inside.each(block, grid.cells_x(), |square, cells| {
                 let end = at + cells.len();
-                field[at..end].iter_mut().for_each(|f| *f += sums[square]);
+                let sum = f64::from(sums[square]);
+                field[at..end].iter_mut().for_each(|f| *f += sum);
                 at = end;
             });
             [sum(field)]
@@ -292,11 +293,12 @@ mod tests {
         fn precondition(&mut self, field: &[f64]) -> Vec<f64> {
             let cells = self.operator.grid().cells();
             // What the work space holds, and the field beyond the contact, must not matter.
-            let (mut window, mut image) = (vec![7.0; cells], vec![f64::NAN; cells]);
+            let (mut window, mut image) = (vec![7.0_f32; cells], vec![f32::NAN; cells]);
             self.contact.each([&mut window], [], |block, [window], []| {
                 let field = &field[block.contact.clone()];
                 for run in block.runs() {
-                    window[run.window].copy_from_slice(&field[run.contact]);
+                    let both = window[run.window].iter_mut().zip(&field[run.contact]);
+                    both.for_each(|(to, from)| *to = *from as f32);
                 }
                 []
             });

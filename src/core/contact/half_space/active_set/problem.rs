@@ -13,19 +13,23 @@ pub(in super::super) trait Elastic {
     /// Its cells.
     fn grid(&self) -> &Grid;
 
-    /// The displacement (m per 1/Pa) of every cell by these pressures (Pa), to [`SINGLE`].
+    /// The displacement of every cell by these pressures (Pa), in units of [`Elastic::unit_m`] per 1/Pa, to [`SINGLE`]. In that unit it is
+    /// of the size of the pressures, so that no system of units leaves the range of single precision.
     fn displace(
         &self,
-        pressure: &[f64],
-        displacement: &mut [f64],
+        pressure: &[f32],
+        displacement: &mut [f32],
         scratch: &mut Scratches,
     ) -> Result<(), ConvolutionError>;
+
+    /// What a displacement by [`Elastic::displace`] is counted in (m).
+    fn unit_m(&self) -> f64;
 
     /// Nearly the inverse of that, symmetric and positive, but for a factor; in these rows alone.
     fn precondition(
         &self,
-        gap: &[f64],
-        pressure: &mut [f64],
+        gap: &[f32],
+        pressure: &mut [f32],
         rows: Range<usize>,
         scratch: &mut Scratches,
     ) -> Result<(), ConvolutionError>;
@@ -50,6 +54,13 @@ pub(in super::super) struct InstantOfCells<'a> {
     pub(in super::super) noise_m: f64,
     /// Whether the contact may have many patches.
     pub(in super::super) has_patches: bool,
+}
+
+impl InstantOfCells<'_> {
+    /// What a displacement by [`Elastic::displace`] lifts the surface by (m).
+    pub(super) fn lift_m(&self) -> f64 {
+        self.compliance_per_pa * self.elastic.unit_m()
+    }
 }
 
 /// How far an iterate is from the solution.

@@ -186,7 +186,7 @@ impl<const N: usize> OfBlocks<N> {
 }
 
 /// Slices cut at the same place, each before and from there on.
-fn cut<const K: usize>(slices: [&mut [f64]; K], at: usize) -> ([&mut [f64]; K], [&mut [f64]; K]) {
+fn cut<T, const K: usize>(slices: [&mut [T]; K], at: usize) -> ([&mut [T]; K], [&mut [T]; K]) {
     let mut halves = slices.map(|slice| slice.split_at_mut(at));
     let rests = halves.each_mut().map(|half| std::mem::take(&mut half.1));
     (halves.map(|half| half.0), rests)
@@ -227,12 +227,30 @@ impl Spans {
         }
     }
 
-    /// Does something to every block: to its part of fields of the window and of fields of the contact.
-    pub(super) fn each<const W: usize, const C: usize, const N: usize>(
+    /// What a function of every block comes to.
+    pub(super) fn over<const N: usize>(
         &self,
-        window: [&mut [f64]; W],
+        leaf: impl Fn(&Block<'_>) -> [f64; N] + Sync,
+    ) -> OfBlocks<N> {
+        self.on_contact([], |block, []| leaf(block))
+    }
+
+    /// Does something to the part that every block has of fields of the contact.
+    pub(super) fn on_contact<const C: usize, const N: usize>(
+        &self,
         contact: [&mut [f64]; C],
-        leaf: impl Fn(&Block<'_>, [&mut [f64]; W], [&mut [f64]; C]) -> [f64; N] + Sync,
+        leaf: impl Fn(&Block<'_>, [&mut [f64]; C]) -> [f64; N] + Sync,
+    ) -> OfBlocks<N> {
+        let none: [&mut [f64]; 0] = [];
+        self.each(none, contact, |block, [], contact| leaf(block, contact))
+    }
+
+    /// Does something to every block: to its part of fields of the window, of either precision, and of fields of the contact.
+    pub(super) fn each<T: Send, const W: usize, const C: usize, const N: usize>(
+        &self,
+        window: [&mut [T]; W],
+        contact: [&mut [f64]; C],
+        leaf: impl Fn(&Block<'_>, [&mut [T]; W], [&mut [f64]; C]) -> [f64; N] + Sync,
     ) -> OfBlocks<N> {
         let blocks = self.found.len();
         let mut values = [[0.0; N]; BLOCKS];
@@ -241,12 +259,12 @@ impl Spans {
         OfBlocks { values, blocks }
     }
 
-    fn each_of<const W: usize, const C: usize, const N: usize>(
+    fn each_of<T: Send, const W: usize, const C: usize, const N: usize>(
         &self,
         blocks: Range<usize>,
-        (window, contact): ([&mut [f64]; W], [&mut [f64]; C]),
+        (window, contact): ([&mut [T]; W], [&mut [f64]; C]),
         values: &mut [[f64; N]],
-        leaf: &(impl Fn(&Block<'_>, [&mut [f64]; W], [&mut [f64]; C]) -> [f64; N] + Sync),
+        leaf: &(impl Fn(&Block<'_>, [&mut [T]; W], [&mut [f64]; C]) -> [f64; N] + Sync),
     ) {
         if let [value] = values {
             *value = leaf(&self.block(blocks.start), window, contact);
@@ -272,13 +290,13 @@ impl Spans {
     /// Gives every block its squares of a field with one value for every square of a window of rows of `cells_x` cells.
     pub(super) fn each_of_squares(
         &self,
-        squares: &mut [f64],
+        squares: &mut [f32],
         cells_x: usize,
-        leaf: impl Fn(&Block<'_>, &mut [f64]) + Sync,
+        leaf: impl Fn(&Block<'_>, &mut [f32]) + Sync,
     ) {
         let rows = (self.cut.block / cells_x.max(1)).div_ceil(SQUARE);
         let mut parts = squares.chunks_mut((rows * cells_x.div_ceil(SQUARE)).max(1));
-        let mut parts: [&mut [f64]; BLOCKS] =
+        let mut parts: [&mut [f32]; BLOCKS] =
             std::array::from_fn(|_| parts.next().unwrap_or_default());
         let blocks = self.found.len();
         let nothing = &mut [(); BLOCKS][..blocks];
@@ -288,11 +306,12 @@ impl Spans {
     }
 
     /// Writes a field of the window into one of the contact, and sums it.
-    pub(super) fn gather(&self, window: &[f64], values: &mut [f64]) -> OfBlocks<1> {
-        self.each([], [values], |block, [], [values]| {
+    pub(super) fn gather(&self, window: &[f32], values: &mut [f64]) -> OfBlocks<1> {
+        self.on_contact([values], |block, [values]| {
             let window = &window[block.window.clone()];
             for run in block.runs() {
-                copy(&window[run.window], &mut values[run.contact]);
+                let both = values[run.contact].iter_mut().zip(&window[run.window]);
+                both.for_each(|(to, from)| *to = f64::from(*from));
             }
             [sum(values)]
         })
@@ -309,13 +328,6 @@ impl Spans {
         let first = runs().next().map_or(0, |run| run.start / cells_x);
         let last = (self.found.iter().rev()).find_map(|found| found.runs.last());
         first..last.map_or(0, |run| run.end.div_ceil(cells_x))
-    }
-}
-
-/// Runs are short: a call for each would take longer than the copy.
-pub(super) fn copy(from: &[f64], to: &mut [f64]) {
-    for (to, from) in to.iter_mut().zip(from) {
-        *to = *from;
     }
 }
 

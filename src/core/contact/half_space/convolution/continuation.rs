@@ -60,8 +60,8 @@ impl Continuation {
     /// The sum, at every square, of what the cells of all squares have, weighted.
     pub(in super::super) fn sum(
         &self,
-        values: &[f64],
-        sums: &mut [f64],
+        values: &[f32],
+        sums: &mut [f32],
         scratch: &mut Scratch<f32>,
     ) -> Result<(), ConvolutionError> {
         self.product.apply(values, sums, 0..self.squares.1, scratch)

@@ -86,12 +86,12 @@ impl<T: Precision> Row<T> for MirroredRow<T> {
 
     fn forward(
         &self,
-        row: &[f64],
+        row: &[T],
         bins: &mut [Complex<T>],
         buffer: &mut [T],
         work: &mut [Complex<T>],
     ) -> Result<(), FftError> {
-        makhoul_permute(row, buffer, |value| T::of(value));
+        makhoul_permute(row, buffer);
         let (spectrum, work) = work.split_at_mut(self.half / 2 + 1);
         let work = &mut work[..self.forward.get_scratch_len()];
         self.forward.process_with_scratch(buffer, spectrum, work)?;
@@ -106,7 +106,7 @@ impl<T: Precision> Row<T> for MirroredRow<T> {
     fn inverse(
         &self,
         bins: &mut [Complex<T>],
-        row: &mut [f64],
+        row: &mut [T],
         buffer: &mut [T],
         work: &mut [Complex<T>],
     ) -> Result<(), FftError> {
@@ -118,7 +118,7 @@ impl<T: Precision> Row<T> for MirroredRow<T> {
         spectrum[self.half / 2] = bins[0].im.into();
         let work = &mut work[..self.inverse.get_scratch_len()];
         self.inverse.process_with_scratch(spectrum, buffer, work)?;
-        makhoul_unpermute(buffer, row, T::to_double);
+        makhoul_unpermute(buffer, row);
         Ok(())
     }
 }
@@ -205,41 +205,41 @@ impl<T: Precision> Column<T> for MirroredColumn<T> {
     ) {
         let (values, work) = work.split_at_mut(self.half);
         column[..loaded.start].fill(zero());
-        makhoul_permute(&column[..loaded.end], values, |value| value);
+        makhoul_permute(&column[..loaded.end], values);
         self.forward.process_with_scratch(values, work);
         self.multiply_pairs(values, kernel);
         self.inverse.process_with_scratch(values, work);
-        makhoul_unpermute(values, &mut column[..wanted.end], |value| value);
+        makhoul_unpermute(values, &mut column[..wanted.end]);
     }
 }
 
 /// Even values in ascending, odd ones in descending order, zeros between.
-fn makhoul_permute<F: Copy, T: Copy + Zero>(line: &[F], values: &mut [T], of: impl Fn(F) -> T) {
+fn makhoul_permute<T: Copy + Zero>(line: &[T], values: &mut [T]) {
     let (even, odd) = (line.len().div_ceil(2), line.len() / 2);
     let beyond = values.len() - odd;
     values[even..beyond].fill(T::zero());
     let pairs = line.chunks_exact(2);
     if let [last] = pairs.remainder() {
-        values[even - 1] = of(*last);
+        values[even - 1] = *last;
     }
     let (ascending, descending) = values.split_at_mut(beyond);
     let places = ascending.iter_mut().zip(descending.iter_mut().rev());
     for ((a, b), pair) in places.zip(pairs) {
-        (*a, *b) = (of(pair[0]), of(pair[1]));
+        (*a, *b) = (pair[0], pair[1]);
     }
 }
 
 /// The reverse of [`makhoul_permute`].
-fn makhoul_unpermute<F: Copy, T>(values: &[F], line: &mut [T], of: impl Fn(F) -> T) {
+fn makhoul_unpermute<T: Copy>(values: &[T], line: &mut [T]) {
     let even = line.len().div_ceil(2);
     let (ascending, descending) = values.split_at(even);
     let places = ascending.iter().zip(descending.iter().rev());
     let mut pairs = line.chunks_exact_mut(2);
     for (pair, (a, b)) in pairs.by_ref().zip(places) {
-        (pair[0], pair[1]) = (of(*a), of(*b));
+        (pair[0], pair[1]) = (*a, *b);
     }
     if let ([last], Some(a)) = (pairs.into_remainder(), ascending.last()) {
-        *last = of(*a);
+        *last = *a;
     }
 }
 

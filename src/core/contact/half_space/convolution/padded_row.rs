@@ -81,7 +81,7 @@ impl<T: Precision> Row<T> for PaddedRow<T> {
     /// Transforms `row` into `bins`, not scaled.
     fn forward(
         &self,
-        row: &[f64],
+        row: &[T],
         bins: &mut [Complex<T>],
         buffer: &mut [T],
         work: &mut [Complex<T>],
@@ -101,7 +101,7 @@ impl<T: Precision> Row<T> for PaddedRow<T> {
     fn inverse(
         &self,
         bins: &mut [Complex<T>],
-        row: &mut [f64],
+        row: &mut [T],
         buffer: &mut [T],
         work: &mut [Complex<T>],
     ) -> Result<(), FftError> {
@@ -113,11 +113,11 @@ impl<T: Precision> Row<T> for PaddedRow<T> {
         let (first, second) = buffer.split_at(self.quarter);
         let terms = odd.iter().zip(&self.twist);
         for ((u, even), (z, w)) in row_first.iter_mut().zip(first).zip(terms) {
-            *u = (*even + (z.re * w.re + z.im * w.im)).to_double();
+            *u = *even + (z.re * w.re + z.im * w.im);
         }
         let terms = odd.iter().zip(&self.twist);
         for ((u, even), (z, w)) in row_second.iter_mut().zip(second).zip(terms) {
-            *u = (*even - (z.im * w.re - z.re * w.im)).to_double();
+            *u = *even - (z.im * w.re - z.re * w.im);
         }
         Ok(())
     }

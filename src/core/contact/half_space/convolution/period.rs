@@ -80,8 +80,8 @@ impl PeriodicOperator {
     /// The same in single precision, to [`SINGLE`](super::SINGLE).
     pub(in super::super) fn apply_nearly(
         &self,
-        pressure: &[f64],
-        displacement: &mut [f64],
+        pressure: &[f32],
+        displacement: &mut [f32],
         scratch: &mut Scratch<f32>,
     ) -> Result<(), ConvolutionError> {
         let rows = 0..self.grid.cells_y();
@@ -92,8 +92,8 @@ impl PeriodicOperator {
     /// wave.
     pub(in super::super) fn apply_inverse(
         &self,
-        displacement: &[f64],
-        pressure: &mut [f64],
+        displacement: &[f32],
+        pressure: &mut [f32],
         rows: Range<usize>,
         scratch: &mut Scratch<f32>,
     ) -> Result<(), ConvolutionError> {

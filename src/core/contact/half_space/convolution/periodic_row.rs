@@ -61,11 +61,9 @@ impl<T: Precision> PeriodicRow<T> {
 }
 
 /// A row, and zeros beyond it.
-pub(super) fn fill_up<T: Precision>(row: &[f64], buffer: &mut [T]) {
+pub(super) fn fill_up<T: Precision>(row: &[T], buffer: &mut [T]) {
     let (given, beyond) = buffer.split_at_mut(row.len());
-    for (to, value) in given.iter_mut().zip(row) {
-        *to = T::of(*value);
-    }
+    given.copy_from_slice(row);
     beyond.fill(T::zero());
 }
 
@@ -89,7 +87,7 @@ impl<T: Precision> Row<T> for PeriodicRow<T> {
 
     fn forward(
         &self,
-        row: &[f64],
+        row: &[T],
         bins: &mut [Complex<T>],
         buffer: &mut [T],
         work: &mut [Complex<T>],
@@ -101,14 +99,12 @@ impl<T: Precision> Row<T> for PeriodicRow<T> {
     fn inverse(
         &self,
         bins: &mut [Complex<T>],
-        row: &mut [f64],
+        row: &mut [T],
         buffer: &mut [T],
         work: &mut [Complex<T>],
     ) -> Result<(), FftError> {
         self.period_of(bins, buffer, work)?;
-        for (value, from) in row.iter_mut().zip(buffer.iter()) {
-            *value = from.to_double();
-        }
+        row.copy_from_slice(&buffer[..row.len()]);
         Ok(())
     }
 }

@@ -45,7 +45,7 @@ pub(super) trait Row<T>: Send + Sync {
     /// Transforms `row` into `bins`, not scaled.
     fn forward(
         &self,
-        row: &[f64],
+        row: &[T],
         bins: &mut [Complex<T>],
         buffer: &mut [T],
         work: &mut [Complex<T>],
@@ -55,7 +55,7 @@ pub(super) trait Row<T>: Send + Sync {
     fn inverse(
         &self,
         bins: &mut [Complex<T>],
-        row: &mut [f64],
+        row: &mut [T],
         buffer: &mut [T],
         work: &mut [Complex<T>],
     ) -> Result<(), FftError>;
@@ -239,8 +239,8 @@ impl<T: Precision> SpectralProduct<T> {
     /// The scratch may be of any shape.
     pub(super) fn apply(
         &self,
-        field: &[f64],
-        image: &mut [f64],
+        field: &[T],
+        image: &mut [T],
         wanted: Range<usize>,
         scratch: &mut Scratch<T>,
     ) -> Result<(), ConvolutionError> {
@@ -257,7 +257,7 @@ impl<T: Precision> SpectralProduct<T> {
         self.fit(scratch);
         let cells = |rows: &Range<usize>| rows.start * shape.cells_x..rows.end * shape.cells_x;
         let Some(loaded) = loaded_rows(field, shape.cells_x) else {
-            image[cells(&wanted)].fill(0.0);
+            image[cells(&wanted)].fill(T::zero());
             return Ok(());
         };
         let (spectra, lanes) = (&mut scratch.spectra[..], &mut scratch.lanes[..]);
@@ -271,7 +271,7 @@ impl<T: Precision> SpectralProduct<T> {
     /// Transforms rows of the field into rows of the panels.
     fn transform_rows(
         &self,
-        field: &[f64],
+        field: &[T],
         panels: Panels<'_, Complex<T>>,
         lanes: &mut [Lane<T>],
     ) -> Result<(), FftError> {
@@ -371,7 +371,7 @@ impl<T: Precision> SpectralProduct<T> {
         &self,
         spectra: &[Complex<T>],
         first: usize,
-        image: &mut [f64],
+        image: &mut [T],
         lanes: &mut [Lane<T>],
     ) -> Result<(), FftError> {
         let shape = &self.shape;
@@ -409,8 +409,8 @@ fn resize<V: Copy>(values: &mut Vec<V>, length: usize, filler: V) {
 }
 
 /// First to last row with a value other than zero; `None` if there is none. NaN counts as a value, so it is not lost.
-fn loaded_rows(field: &[f64], cells_x: usize) -> Option<Range<usize>> {
-    let loaded = |row: &[f64]| row.iter().any(|&value| value != 0.0);
+fn loaded_rows<T: Precision>(field: &[T], cells_x: usize) -> Option<Range<usize>> {
+    let loaded = |row: &[T]| row.iter().any(|&value| value != T::zero());
     let first = field.chunks_exact(cells_x).position(loaded)?;
     let last = field.chunks_exact(cells_x).rposition(loaded)?;
     Some(first..last + 1)

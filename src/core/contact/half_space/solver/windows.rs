@@ -36,18 +36,22 @@ impl Elastic for Window<'_> {
 
     fn displace(
         &self,
-        pressure: &[f64],
-        displacement: &mut [f64],
+        pressure: &[f32],
+        displacement: &mut [f32],
         scratch: &mut Scratches,
     ) -> Result<(), ConvolutionError> {
         let scratch = &mut scratch.changes;
         (self.operators.convolution).apply_nearly(pressure, displacement, scratch)
     }
 
+    fn unit_m(&self) -> f64 {
+        self.operators.convolution.unit_m()
+    }
+
     fn precondition(
         &self,
-        gap: &[f64],
-        pressure: &mut [f64],
+        gap: &[f32],
+        pressure: &mut [f32],
         rows: Range<usize>,
         scratch: &mut Scratches,
     ) -> Result<(), ConvolutionError> {
