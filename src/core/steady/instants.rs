@@ -78,7 +78,6 @@ impl Instants {
         let is_near =
             march.knows_last_cycle() && self.expected <= Self::NEAR_THE_END * self.of_cycle;
         if is_near {
-            march.tolerate(given);
             march.tighten_for_good_guesses();
         }
         is_near

@@ -66,9 +66,6 @@ impl<'a> Cycles<'a> {
         self.see(march);
         march.begin_cycle(self.remaining.first_held());
         let mut scale = 0.0_f64;
-        if let Some(recording) = recording.as_deref_mut() {
-            recording.sample(march, 0.0)?;
-        }
         for step in 1..=self.steps {
             self.contact.check_interrupted()?;
             let fraction = |end: f64| ((step - 1) as f64 + end) / self.steps as f64;

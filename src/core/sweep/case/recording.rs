@@ -27,7 +27,7 @@ pub(super) struct Recording {
 }
 
 impl Recording {
-    /// Nothing recorded yet of a cycle in this many steps, which begins where the march stands.
+    /// Of a cycle in this many steps, the instant at which it begins: where the march stands.
     pub fn new(
         contact: &Contact<'_>,
         march: &mut March<'_>,
@@ -37,7 +37,7 @@ impl Recording {
         let step_s = contact.period_s() / steps as f64;
         let (everything, numbers) = (Wanted::Everything, Wanted::Numbers);
         let is_transient = contact.cycle.at_cycle.is_some();
-        Ok(Self {
+        let mut recording = Self {
             samples: Loop::default(),
             dissipation: march.dissipation(step_s)?,
             pressures: (contact.wanted >= everything)
@@ -45,7 +45,9 @@ impl Recording {
             tangent_radius: (contact.wanted >= numbers).then(|| TangentRadius::new(steps)),
             work: (contact.wanted >= everything && !is_transient)
                 .then(|| NodalWork::new(contact.compliance, nodes, step_s)),
-        })
+        };
+        recording.sample(march, 0.0)?;
+        Ok(recording)
     }
 
     /// Takes a step of this number, whose end is at this time, and the instant there.
@@ -67,7 +69,7 @@ impl Recording {
     }
 
     /// Appends the present instant to the loop.
-    pub fn sample(&mut self, march: &mut March<'_>, time_s: f64) -> Result<(), ContactError> {
+    fn sample(&mut self, march: &mut March<'_>, time_s: f64) -> Result<(), ContactError> {
         let with_numbers = self.tangent_radius.is_some();
         sample(march, &mut self.samples, time_s, with_numbers)?;
         match &mut self.work {
@@ -188,9 +190,7 @@ pub(super) struct Recorder<'a> {
 
 impl Record for Recorder<'_> {
     fn begin(&mut self, march: &mut March<'_>) -> Result<(), ContactError> {
-        let mut recording = Recording::new(self.contact, march, self.steps)?;
-        recording.sample(march, 0.0)?;
-        self.recording = Some(recording);
+        self.recording = Some(Recording::new(self.contact, march, self.steps)?);
         Ok(())
     }
 

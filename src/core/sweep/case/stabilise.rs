@@ -67,7 +67,7 @@ pub(crate) struct Stabilised {
     pub distance: Option<f64>,
     /// What a reader should know of how it came about, or of why there is no result.
     pub message: Option<String>,
-    /// Memory at the start of the recorded cycle, to start a finer one from.
+    /// Memory at one end of the recorded cycle, to start a finer one from.
     pub memory: Vec<f64>,
     /// The last instant, which the engine goes on from.
     pub last: Option<Solution>,
