@@ -269,11 +269,6 @@ fn go_on(interrupt: Option<&AtomicBool>) -> Result<(), ContactError> {
     }
 }
 
-/// The highest pressure, at least 0.
-fn highest(pressure: &[f64]) -> f64 {
-    pressure.iter().copied().fold(0.0, f64::max)
-}
-
 /// [`Engine::surface`] of an engine whose nodes are the cells of a grid.
 fn surface_of_cells(
     engine: &mut impl Engine,

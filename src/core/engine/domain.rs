@@ -10,6 +10,7 @@ use std::f64::consts::PI;
 
 use crate::contact::half_space::grid::{Grid, GridError};
 use crate::indenter::{Domain, Indenter, Rim};
+use crate::numerics::threads::in_pieces;
 
 /// Room beyond the largest contact expected, because the cells on the border must stay empty.
 const CELL_ROOM: f64 = 1.1;
@@ -176,8 +177,13 @@ fn gap_of_cell_m(indenter: &dyn Indenter, grid: &Grid, (x_m, y_m): (f64, f64)) -
 
 /// The gap (m) of every cell: the one at its centre, but for the cells at a rim.
 pub fn gaps_m(indenter: &dyn Indenter, grid: &Grid) -> Vec<f64> {
-    let gap = |cell| gap_of_cell_m(indenter, grid, grid.center(cell));
-    (0..grid.cells()).map(gap).collect()
+    let mut gap_m = vec![0.0; grid.cells()];
+    in_pieces(grid.cells(), &mut gap_m[..], |cells, gap_m| {
+        for (cell, gap_m) in cells.zip(gap_m) {
+            *gap_m = gap_of_cell_m(indenter, grid, grid.center(cell));
+        }
+    });
+    gap_m
 }
 
 /// The quarter of the grid, where the gap on it says everything: even in x and in y, to the last bit.

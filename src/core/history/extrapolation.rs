@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::numerics::threads::in_pieces;
+
 /// Pressures of the last instants, and the steps between them.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Extrapolation {
@@ -30,13 +32,15 @@ impl Extrapolation {
         one.resize(pressure.len(), 0.0);
         two.resize(pressure.len(), 0.0);
         // `one` is now the older of the two, and makes room for the last pressure once it has been used.
-        let older = one.iter_mut().zip(&*two);
-        for (p, (older, old)) in pressure.iter_mut().zip(older) {
-            let last = *p;
-            let guess = weights[0] * last + weights[1] * old + weights[2] * *older;
-            *p = if last > 0.0 { guess.max(0.0) } else { last };
-            *older = last;
-        }
+        let fields = (&mut *pressure, &mut one[..], &two[..]);
+        in_pieces(fields.0.len(), fields, |_, (pressure, one, two)| {
+            for ((p, older), old) in pressure.iter_mut().zip(one).zip(two) {
+                let last = *p;
+                let guess = weights[0] * last + weights[1] * old + weights[2] * *older;
+                *p = if last > 0.0 { guess.max(0.0) } else { last };
+                *older = last;
+            }
+        });
         self.known = (self.known + 1).min(2);
         self.steps_s = [step_s, self.steps_s[0]];
     }

@@ -10,6 +10,7 @@ use super::hereditary::{Hereditary, PastState};
 use super::rule::{Recursion, Stage, StepWeights, TimeRule, compliances, rings};
 use crate::contact::sums;
 use crate::material::Creep;
+use crate::numerics::threads::{Fields, in_pieces};
 
 /// Memory variables of every node.
 #[derive(Debug, Clone)]
@@ -133,24 +134,36 @@ impl Hereditary for Memory {
 
     /// Ages the memory by everything that is known before the new pressure is.
     fn predict(&mut self, step: &StepWeights, old_pressure: &[f64], history: &mut [f64]) {
-        for block in blocks(self.nodes) {
-            let old_pressure = &old_pressure[block.clone()];
-            let history = &mut history[block.clone()];
-            history.fill(0.0);
-            for (field, weights, per_pa) in self.fields(step) {
-                let weights = (weights.decay, weights.old, per_pa);
-                fade(&mut field[block.clone()], old_pressure, weights, history);
-            }
+        let fields = (self.fields(step)).map(|(values, weights, per_pa)| Fading {
+            values,
+            weights: (weights.decay, weights.old, per_pa),
+        });
+        let mut fields = fields.peekable();
+        in_pieces(history.len(), &mut *history, |_, history| history.fill(0.0));
+        while fields.peek().is_some() {
+            let together: [Fading<'_>; TOGETHER] =
+                std::array::from_fn(|_| fields.next().unwrap_or_default());
+            let pieces = (old_pressure, &mut *history, together);
+            in_pieces(old_pressure.len(), pieces, |_, piece| {
+                let (old_pressure, history, mut fields) = piece;
+                for block in blocks(history.len()) {
+                    let fields = fields.iter_mut().filter(|field| !field.values.is_empty());
+                    for Fading { values, weights } in fields {
+                        let (values, old) =
+                            (&mut values[block.clone()], &old_pressure[block.clone()]);
+                        fade(values, old, *weights, &mut history[block.clone()]);
+                    }
+                }
+            });
         }
     }
 
     fn commit(&mut self, step: &StepWeights, new_pressure: &[f64]) {
-        for block in blocks(self.nodes) {
-            let new_pressure = &new_pressure[block.clone()];
-            for (field, weights, _) in self.fields(step) {
-                if weights.new != 0.0 {
-                    sums::add_scaled(&mut field[block.clone()], weights.new, new_pressure);
-                }
+        for (field, weights, _) in self.fields(step) {
+            if weights.new != 0.0 {
+                in_pieces(new_pressure.len(), (field, new_pressure), |_, piece| {
+                    sums::add_scaled(piece.0, weights.new, piece.1);
+                });
             }
         }
     }
@@ -177,6 +190,25 @@ impl Hereditary for Memory {
             self.fields = fields.into_owned();
         }
         fits
+    }
+}
+
+/// Fields that are passed over together: as many as a body usually has.
+const TOGETHER: usize = 8;
+
+/// A field in a step: what it fades by, takes in of the old pressure, and adds to the hereditary integral; none by default.
+#[derive(Default)]
+struct Fading<'s> {
+    values: &'s mut [f64],
+    weights: (f64, f64, f64),
+}
+
+impl Fields for Fading<'_> {
+    fn cut(self, at: usize) -> (Self, Self) {
+        let weights = self.weights;
+        let (values, rest) = self.values.split_at_mut(at.min(self.values.len()));
+        let piece = |values| Self { values, weights };
+        (piece(values), piece(rest))
     }
 }
 

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use crate::contact::sums;
 use crate::numerics::roots::bisect;
+use crate::numerics::threads::in_pieces;
 
 /// When the iteration stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,14 +62,19 @@ pub(super) const STANDING_OFF: f64 = 30.0;
 /// The starting pressure: the guess made non-negative and scaled to the load, or, without a guess, the load spread evenly
 /// over the indenter.
 pub(super) fn start(target_sum: Option<f64>, gap_m: &[f64], pressure: &mut [f64]) {
-    for (p, gap) in pressure.iter_mut().zip(gap_m) {
-        *p = if gap.is_finite() { p.max(0.0) } else { 0.0 };
-    }
+    let cells = pressure.len();
+    in_pieces(cells, (&mut *pressure, gap_m), |_, (pressure, gap_m)| {
+        for (p, gap) in pressure.iter_mut().zip(gap_m) {
+            *p = if gap.is_finite() { p.max(0.0) } else { 0.0 };
+        }
+    });
     let Some(target) = target_sum else { return };
     let sum = sums::sum(pressure);
     if sum > 0.0 {
         let scale = target / sum;
-        pressure.iter_mut().for_each(|p| *p *= scale);
+        in_pieces(cells, pressure, |_, pressure| {
+            pressure.iter_mut().for_each(|p| *p *= scale);
+        });
         return;
     }
     let count = gap_m.iter().filter(|g| g.is_finite()).count().max(1);

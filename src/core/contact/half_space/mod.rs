@@ -11,6 +11,7 @@ mod instant;
 pub mod layer;
 pub mod love;
 mod memory;
+mod passes;
 pub mod periodic;
 mod polonsky_keer;
 mod solver;

@@ -18,11 +18,11 @@ use super::convolution::ConvolutionError;
 pub use super::convolution::PeriodicOperator;
 use super::grid::Grid;
 use super::instant::{Imposed, ROUNDING, SolverSettings, start};
+use super::passes;
 use super::polonsky_keer::{InstantProblem, PolonskyKeer, Residual, lift_free_gap};
 use crate::contact::surface::{PressureLine, Response, Surface};
-use crate::contact::{
-    ContactError, Engine, Instant, Prescribed, Solution, highest, sums, surface_of_cells,
-};
+use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution, sums, surface_of_cells};
+use crate::numerics::threads::in_pieces;
 
 /// The engine of one gap field that repeats itself.
 pub struct Periodic {
@@ -124,16 +124,20 @@ impl Periodic {
     ) -> Result<Option<f64>, ContactError> {
         start(Some(target_sum), &self.gap_m, pressure);
         self.fields.fit(pressure.len());
-        self.fields.pressure.copy_from_slice(pressure);
+        passes::copy(pressure, &mut self.fields.pressure);
         loop {
             let fields = &mut self.fields;
             let scratch = &mut self.scratches.convolution;
             (self.operator).apply(&fields.pressure, &mut fields.gap_m, scratch)?;
             work.count_fresh_gap();
-            for (gap, free) in fields.gap_m.iter_mut().zip(&self.free_gap_m) {
-                *gap = free + compliance_per_pa * *gap;
-            }
-            let level_m = -sums::least_of(&fields.gap_m, |gap| -gap.abs());
+            let cells = pressure.len();
+            let gaps_m = (&mut fields.gap_m[..], &self.free_gap_m[..]);
+            in_pieces(cells, gaps_m, |_, (gap_m, free_gap_m)| {
+                for (gap, free) in gap_m.iter_mut().zip(free_gap_m) {
+                    *gap = free + compliance_per_pa * *gap;
+                }
+            });
+            let level_m = passes::largest(&fields.gap_m);
             let period = Period {
                 operator: &self.operator,
                 free_gap_m: &self.free_gap_m,
@@ -150,7 +154,7 @@ impl Periodic {
             };
             let steps = self.settings.max_iterations;
             let solved = fields.solve(&problem, steps, &mut self.scratches, work)?;
-            pressure.copy_from_slice(&fields.pressure);
+            passes::copy(&fields.pressure, pressure);
             if solved.is_none_or(|state| work.is_exact(&state, problem.tolerance)) {
                 return Ok(solved.map(|state| state.approach_m));
             }
@@ -280,7 +284,7 @@ impl Engine for Periodic {
         let noise_m = noise_m.unwrap_or(0.0);
         let approach_m = if load_n == 0.0 {
             pressure.fill(0.0);
-            sums::least(&self.free_gap_m)
+            passes::least(&self.free_gap_m)
         } else {
             let (target_sum, compliance) = (load_n / area_m2, instant.compliance_per_pa);
             if self.fast_steps > 0 && pressure.iter().all(|p| *p <= 0.0) {
@@ -291,7 +295,7 @@ impl Engine for Periodic {
                 None => self.solve_safely(instant, target_sum, pressure, &mut work)?,
             }
         };
-        let touching = pressure.iter().filter(|p| **p > 0.0).count() as f64;
+        let touching = passes::positive(pressure);
         Ok(Solution {
             load_n,
             approach_m,
@@ -306,7 +310,7 @@ impl Engine for Periodic {
         pressure: &[f64],
         _solution: &Solution,
     ) -> Result<Option<f64>, ContactError> {
-        Ok(Some(highest(pressure)))
+        Ok(Some(passes::largest(pressure)))
     }
 
     /// None: without an edge there is no punch that is as stiff.

@@ -11,7 +11,8 @@ use std::sync::atomic::AtomicBool;
 use super::active_set::Work;
 use super::convolution::{ConvolutionError, Scratch};
 use super::instant::{Imposed, ROUNDING, STANDING_OFF, SolverSettings, start};
-use crate::contact::{ContactError, go_on, sums};
+use super::passes;
+use crate::contact::{ContactError, go_on};
 
 /// The elastic operator B of a surface in cells: writes the displacement (m per 1/Pa) of every cell by these pressures (Pa).
 pub(super) type Operator<'a> =
@@ -366,14 +367,12 @@ pub(super) fn lift_free_gap(
     displace: impl FnOnce(&[f64], &mut [f64]) -> Result<(), ConvolutionError>,
 ) -> Result<Option<f64>, ContactError> {
     if history.iter().all(|h| *h == 0.0) {
-        free_gap_m.copy_from_slice(gap_m);
+        passes::copy(gap_m, free_gap_m);
         return Ok(None);
     }
     displace(history, free_gap_m)?;
-    let largest_m = -sums::least_of(free_gap_m, |lift| -lift.abs());
-    for (free, gap) in free_gap_m.iter_mut().zip(gap_m) {
-        *free += gap;
-    }
+    let largest_m = passes::largest(free_gap_m);
+    passes::add(free_gap_m, gap_m);
     Ok(Some(ROUNDING * largest_m))
 }
 

@@ -23,11 +23,10 @@ use windows::Windows;
 use super::active_set::{ActiveSet, Scratches, Work};
 use super::convolution::{Convolution, ConvolutionError};
 use super::instant::{Imposed, SolverSettings};
+use super::passes;
 use super::polonsky_keer::{InstantProblem, PolonskyKeer, Residual};
 use crate::contact::surface::{PressureLine, Response, Surface};
-use crate::contact::{
-    ContactError, Engine, Instant, Prescribed, Solution, highest, sums, surface_of_cells,
-};
+use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution, sums, surface_of_cells};
 
 /// The half-space engine of one gap field.
 pub struct HalfSpace {
@@ -269,9 +268,9 @@ impl HalfSpace {
         let windows = self.enter(instant, window, history, pressure);
         self.lift_gap(windows, instant.compliance_per_pa)?;
         work.convolutions += 1;
-        let mut approach_m = sums::least(&self.fields.gap_m);
+        let mut approach_m = passes::least(&self.fields.gap_m);
         if window != Frame::whole(&grid) && !self.is_clear_beyond(windows, approach_m) {
-            approach_m = sums::least(&self.whole_gap(windows, work)?);
+            approach_m = passes::least(&self.whole_gap(windows, work)?);
         }
         Ok(InstantResult {
             approach_m,
@@ -363,7 +362,7 @@ impl Engine for HalfSpace {
         pressure: &[f64],
         _solution: &Solution,
     ) -> Result<Option<f64>, ContactError> {
-        Ok(self.bounded_pressure.then(|| highest(pressure)))
+        Ok(self.bounded_pressure.then(|| passes::largest(pressure)))
     }
 
     fn tangent_radius_m(

@@ -7,6 +7,7 @@ use std::ops::Range;
 
 use super::super::convolution::SQUARE;
 use crate::contact::sums::sum;
+use crate::numerics::threads::{Fields, both};
 
 /// Blocks of a large window at most.
 const BLOCKS: usize = 8;
@@ -114,19 +115,6 @@ fn in_halves<T: Send, V: Send>(
     );
 }
 
-/// Both, at the same time in a pool of several threads.
-fn both(these: impl FnOnce() + Send, those: impl FnOnce() + Send) {
-    match rayon::current_thread_index() {
-        Some(_) if rayon::current_num_threads() > 1 => {
-            rayon::join(these, those);
-        }
-        _ => {
-            these();
-            those();
-        }
-    }
-}
-
 /// A run: its cells in the window and in a field of the contact, counted from the beginning of its block.
 pub(super) struct Run {
     pub(super) window: Range<usize>,
@@ -183,13 +171,6 @@ impl<const N: usize> OfBlocks<N> {
     pub(in super::super) fn least(&self, which: usize) -> f64 {
         self.used(which).fold(f64::INFINITY, f64::min)
     }
-}
-
-/// Slices cut at the same place, each before and from there on.
-fn cut<T, const K: usize>(slices: [&mut [T]; K], at: usize) -> ([&mut [T]; K], [&mut [T]; K]) {
-    let mut halves = slices.map(|slice| slice.split_at_mut(at));
-    let rests = halves.each_mut().map(|half| std::mem::take(&mut half.1));
-    (halves.map(|half| half.0), rests)
 }
 
 impl Spans {
@@ -273,8 +254,8 @@ impl Spans {
         let middle = usize::midpoint(blocks.start, blocks.end);
         let (values, others) = values.split_at_mut(middle - blocks.start);
         let (first, from) = (blocks.start * self.cut.block, self.before[blocks.start]);
-        let (window, window_rest) = cut(window, middle * self.cut.block - first);
-        let (contact, contact_rest) = cut(contact, self.before[middle] - from);
+        let (window, window_rest) = window.cut(middle * self.cut.block - first);
+        let (contact, contact_rest) = contact.cut(self.before[middle] - from);
         let these = || self.each_of(blocks.start..middle, (window, contact), values, leaf);
         let those = || {
             self.each_of(

@@ -3,6 +3,8 @@
 //! Work is halved as long as there are lanes for more threads; whoever of the pool is idle takes a half. Outside a pool, in a
 //! pool of one thread and on small grids all stays on the thread that asked: there, waking another costs more than it saves.
 
+use crate::numerics::threads::both;
+
 /// Panels into which columns are split at most: more threads than this cannot share one product.
 pub(super) const PANELS: usize = 8;
 
@@ -62,7 +64,7 @@ pub(super) fn in_parts<W: Send, L: Send, E: Send>(
         let at = length * half / lanes.len();
         let (lanes, others) = lanes.split_at_mut(half);
         let (work, rest) = split(work, at);
-        let (a, b) = rayon::join(
+        let (a, b) = both(
             || in_parts(work, at, lanes, split, leaf),
             || in_parts(rest, length - at, others, split, leaf),
         );

@@ -410,7 +410,8 @@ fn resize<V: Copy>(values: &mut Vec<V>, length: usize, filler: V) {
 
 /// First to last row with a value other than zero; `None` if there is none. NaN counts as a value, so it is not lost.
 fn loaded_rows<T: Precision>(field: &[T], cells_x: usize) -> Option<Range<usize>> {
-    let loaded = |row: &[T]| row.iter().any(|&value| value != T::zero());
+    // Looking at a whole row at once is faster than stopping at its first value.
+    let loaded = |row: &[T]| (row.iter()).fold(false, |any, &value| any | (value != T::zero()));
     let first = field.chunks_exact(cells_x).position(loaded)?;
     let last = field.chunks_exact(cells_x).rposition(loaded)?;
     Some(first..last + 1)

@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use super::super::convolution::window_length;
 use super::super::grid::Grid;
+use crate::contact::sums;
+use crate::numerics::threads::{Rows, in_rows};
 
 /// A rectangle of cells of a grid: a window of it, or where a field has values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -170,63 +172,72 @@ impl Frame {
             || touched(self.rows(), inner.rows(), grid.cells_y())
     }
 
-    /// Rows of this window within a field on the grid.
-    fn rows_of<'a>(
+    /// Does something to every row of this window of a field of rows of `field_cells_x` values, and that of a part of its size.
+    fn each_row(
         &self,
-        field: &'a [f64],
-        grid_cells_x: usize,
-    ) -> impl Iterator<Item = &'a [f64]> {
-        let (x, cells_x) = (self.x, self.cells_x);
-        let rows = field.chunks_exact(grid_cells_x);
-        let rows = rows.skip(self.y).take(self.cells_y);
-        rows.map(move |row| &row[x..x + cells_x])
+        field: &[f64],
+        field_cells_x: usize,
+        part: &mut [f64],
+        leaf: impl Fn(&[f64], &mut [f64]) + Sync,
+    ) {
+        let (cells_x, columns) = (self.cells_x, self.columns());
+        let field = &field[self.y * field_cells_x..(self.y + self.cells_y) * field_cells_x];
+        let rows = (Rows(field, field_cells_x), Rows(part, cells_x));
+        in_rows(self.cells_y, cells_x, rows, |_, (field, part)| {
+            let rows = field.0.chunks_exact(field_cells_x);
+            for (row, part) in rows.zip(part.0.chunks_exact_mut(cells_x)) {
+                leaf(&row[columns.clone()], part);
+            }
+        });
     }
 
-    fn rows_of_mut<'a>(
+    /// The same, where the field is to change.
+    fn each_row_mut(
         &self,
-        field: &'a mut [f64],
-        grid_cells_x: usize,
-    ) -> impl Iterator<Item = &'a mut [f64]> {
-        let (x, cells_x) = (self.x, self.cells_x);
-        let rows = field.chunks_exact_mut(grid_cells_x);
-        let rows = rows.skip(self.y).take(self.cells_y);
-        rows.map(move |row| &mut row[x..x + cells_x])
+        field: &mut [f64],
+        field_cells_x: usize,
+        part: &[f64],
+        leaf: impl Fn(&mut [f64], &[f64]) + Sync,
+    ) {
+        let (cells_x, columns) = (self.cells_x, self.columns());
+        let field = &mut field[self.y * field_cells_x..(self.y + self.cells_y) * field_cells_x];
+        let rows = (Rows(field, field_cells_x), Rows(part, cells_x));
+        in_rows(self.cells_y, cells_x, rows, |_, (field, part)| {
+            let rows = field.0.chunks_exact_mut(field_cells_x);
+            for (row, part) in rows.zip(part.0.chunks_exact(cells_x)) {
+                leaf(&mut row[columns.clone()], part);
+            }
+        });
     }
 
     /// Copies this window out of a field of rows of `grid_cells_x` values.
     pub(super) fn gather(&self, field: &[f64], grid_cells_x: usize, part: &mut [f64]) {
-        let rows = self.rows_of(field, grid_cells_x);
-        for (part, row) in part.chunks_exact_mut(self.cells_x).zip(rows) {
-            part.copy_from_slice(row);
-        }
+        self.each_row(field, grid_cells_x, part, |row, part| {
+            part.copy_from_slice(row)
+        });
     }
 
     /// Copies this window back into such a field.
     pub(super) fn scatter(&self, part: &[f64], grid_cells_x: usize, field: &mut [f64]) {
-        let rows = self.rows_of_mut(field, grid_cells_x);
-        for (part, row) in part.chunks_exact(self.cells_x).zip(rows) {
-            row.copy_from_slice(part);
-        }
+        self.each_row_mut(field, grid_cells_x, part, |row, part| {
+            row.copy_from_slice(part)
+        });
     }
 
     /// Adds a part of this window's size, times a factor, to a field of rows of `cells_x` values.
     pub(super) fn add_scaled(&self, part: &[f64], factor: f64, cells_x: usize, field: &mut [f64]) {
-        let rows = self.rows_of_mut(field, cells_x);
-        for (part, row) in part.chunks_exact(self.cells_x).zip(rows) {
-            for (value, part) in row.iter_mut().zip(part) {
-                *value += factor * part;
-            }
-        }
+        self.each_row_mut(field, cells_x, part, |row, part| {
+            sums::add_scaled(row, factor, part);
+        });
     }
 
     /// Adds this window of a field of rows of `cells_x` values to a part of the window's size.
     pub(super) fn add_part(&self, field: &[f64], cells_x: usize, part: &mut [f64]) {
-        let rows = self.rows_of(field, cells_x);
-        for (part, row) in part.chunks_exact_mut(self.cells_x).zip(rows) {
-            for (part, value) in part.iter_mut().zip(row) {
-                *part += value;
-            }
-        }
+        self.each_row(field, cells_x, part, |row, part| {
+            part.iter_mut()
+                .zip(row)
+                .for_each(|(part, value)| *part += value);
+        });
     }
 
     /// The window `inner` of the same grid, as a window of this one.

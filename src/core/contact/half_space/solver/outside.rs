@@ -12,6 +12,7 @@
 
 use std::f64::consts::PI;
 
+use super::super::active_set::over_blocks;
 use super::super::grid::Grid;
 use super::frame::Frame;
 
@@ -25,8 +26,27 @@ pub(super) struct Moments {
 }
 
 impl Moments {
+    /// Of a field of rows of `cells_x` values, the centre of whose first cell lies at `corner`, in units in which cells along x are 1
+    /// apart and, along y, `step_y`; the second place of the corner is counted in cells.
+    pub(super) fn of(field: &[f64], cells_x: usize, corner: (f64, f64), step_y: f64) -> Self {
+        let found = over_blocks(field.len(), cells_x, |cells| {
+            let mut moments = Self::default();
+            let rows = field[cells.clone()].chunks_exact(cells_x);
+            for (iy, row) in (cells.start / cells_x..).zip(rows) {
+                moments.add_row(row, corner.0, (iy as f64 + corner.1) * step_y);
+            }
+            [moments.sum, moments.x, moments.y, moments.squares]
+        });
+        Self {
+            sum: found.total(0),
+            x: found.total(1),
+            y: found.total(2),
+            squares: found.total(3),
+        }
+    }
+
     /// Adds a row of values whose first cell's centre lies at `(x, y)` in units in which cells are `(1, step_y)` apart.
-    pub(super) fn add_row(&mut self, values: &[f64], x: f64, y: f64) {
+    fn add_row(&mut self, values: &[f64], x: f64, y: f64) {
         const LANES: usize = 4;
         let mut at: [f64; LANES] = std::array::from_fn(|lane| x + lane as f64);
         let mut lanes = [[0.0; LANES]; 3];
@@ -122,21 +142,27 @@ impl OutsideGapBound {
         let farthest =
             reach(grid.cells_x(), centre.0, 1.0).hypot(reach(grid.cells_y(), centre.1, step_y));
         let width = farthest.max(1.0) / (RINGS as f64 - 1.0);
-        let mut least_gap_m = vec![f64::INFINITY; RINGS];
-        for (iy, row) in gap_m.chunks_exact(grid.cells_x()).enumerate() {
-            let dy = (iy as f64 + first) * step_y - centre.1;
-            let inside = match frame.rows().contains(&iy) {
-                true => frame.columns(),
-                false => 0..0,
-            };
-            for (ix, &gap_m) in row.iter().enumerate() {
-                if !inside.contains(&ix) {
-                    let distance = (ix as f64 + first - centre.0).hypot(dy);
-                    let ring = &mut least_gap_m[((distance / width) as usize).min(RINGS - 1)];
-                    *ring = ring.min(gap_m);
+        let cells_x = grid.cells_x();
+        let of_rings = over_blocks(gap_m.len(), cells_x, |cells| {
+            let mut least_gap_m = [f64::INFINITY; RINGS];
+            let rows = gap_m[cells.clone()].chunks_exact(cells_x);
+            for (iy, row) in (cells.start / cells_x..).zip(rows) {
+                let dy = (iy as f64 + first) * step_y - centre.1;
+                let inside = match frame.rows().contains(&iy) {
+                    true => frame.columns(),
+                    false => 0..0,
+                };
+                for (ix, &gap_m) in row.iter().enumerate() {
+                    if !inside.contains(&ix) {
+                        let distance = (ix as f64 + first - centre.0).hypot(dy);
+                        let ring = &mut least_gap_m[((distance / width) as usize).min(RINGS - 1)];
+                        *ring = ring.min(gap_m);
+                    }
                 }
             }
-        }
+            least_gap_m
+        });
+        let least_gap_m = (0..RINGS).map(|ring| of_rings.least(ring)).collect();
         Self {
             frame,
             centre,
@@ -173,11 +199,7 @@ mod tests {
     /// Cells of a field in turn, for its moments.
     fn moments(grid: &Grid, field: &[f64]) -> Moments {
         let step_y = grid.spacing_y_m() / grid.spacing_x_m();
-        let mut moments = Moments::default();
-        for (iy, row) in field.chunks_exact(grid.cells_x()).enumerate() {
-            moments.add_row(row, 0.0, iy as f64 * step_y);
-        }
-        moments
+        Moments::of(field, grid.cells_x(), (0.0, 0.0), step_y)
     }
 
     #[test]

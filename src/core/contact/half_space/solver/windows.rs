@@ -1,5 +1,6 @@
 //! An instant in windows of the grid: the contact's, which grows until it holds all of it, and that of what moves the surface.
 
+use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -8,6 +9,7 @@ use super::super::convolution::{Convolution, ConvolutionError, WindowOperators};
 use super::super::grid::Grid;
 use super::super::influence::Influence;
 use super::super::instant::{Imposed, ROUNDING, hertz_guess, start};
+use super::super::passes;
 use super::frame::Frame;
 use super::outside::{Moments, OutsideGapBound, first_centre};
 use super::{HalfSpace, InstantResult, sums};
@@ -63,11 +65,8 @@ impl Elastic for Window<'_> {
     fn load(&self, pressure: &[f64], _gap_m: &[f64], compliance_per_pa: f64) -> (f64, f64) {
         let grid = self.whole.grid();
         let step_y = grid.spacing_y_m() / grid.spacing_x_m();
-        let (mut moments, first) = (Moments::default(), first_centre(grid));
-        let rows = pressure.chunks_exact(self.grid().cells_x());
-        for (iy, pressure) in rows.enumerate() {
-            moments.add_row(pressure, first, (iy as f64 + first) * step_y);
-        }
+        let first = first_centre(grid);
+        let moments = Moments::of(pressure, self.grid().cells_x(), (first, first), step_y);
         let pressure_sum = moments.sum();
         if pressure_sum <= 0.0 {
             return (pressure_sum, 0.0);
@@ -151,9 +150,7 @@ impl HalfSpace {
             let scratch = &mut self.scratches.convolution;
             (self.operator).apply(instant.history, &mut gap_m, scratch)?;
             work.convolutions += 1;
-            for (gap, own) in gap_m.iter_mut().zip(&self.gap_m) {
-                *gap += own;
-            }
+            passes::add(&mut gap_m, &self.gap_m);
         }
         let cell_m = self.nodal_area_m2().sqrt();
         hertz_guess(imposed, &gap_m, instant.compliance_per_pa, cell_m, pressure);
@@ -232,7 +229,7 @@ impl HalfSpace {
         let operators = self.operator.window(source.cells_x, source.cells_y)?;
         let scratch = &mut self.scratches.convolution;
         (operators.convolution).apply(&self.source, &mut self.lift_m, scratch)?;
-        let largest_m = -sums::least_of(&self.lift_m, |u| -u.abs());
+        let largest_m = passes::largest(&self.lift_m);
         let part = source.part(&contact);
         let gap_m = &mut self.fields.gap_m;
         contact.gather(&self.gap_m, self.operator.grid().cells_x(), gap_m);
@@ -242,7 +239,7 @@ impl HalfSpace {
 
     /// A p + H in the window of the sources.
     fn gather_source(&mut self, Windows { contact, source }: Windows, compliance_per_pa: f64) {
-        self.source.copy_from_slice(&self.history);
+        passes::copy(&self.history, &mut self.source);
         let part = source.part(&contact);
         let (pressure, row) = (&self.fields.pressure, source.cells_x);
         part.add_scaled(pressure, compliance_per_pa, row, &mut self.source);
@@ -281,20 +278,15 @@ impl HalfSpace {
         let Windows { contact, source } = windows;
         let grid = self.operator.grid();
         let step_y = grid.spacing_y_m() / grid.spacing_x_m();
-        let mut moments = Moments::default();
-        let (x, y) = (source.x as f64, source.y as f64);
         let first = first_centre(grid);
+        let corner = (source.x as f64 + first, source.y as f64 + first);
         // The hereditary part of a noisy table may lift the surface in places.
-        let (mut lifting, mut pressing) = (0.0, Vec::new());
-        for (iy, mut row) in self.source.chunks_exact(source.cells_x).enumerate() {
-            if sums::least(row) < 0.0 {
-                lifting -= sums::sums(row, row, |q, _| [q.min(0.0)])[0];
-                pressing.clear();
-                pressing.extend(row.iter().map(|q| q.max(0.0)));
-                row = &pressing;
-            }
-            moments.add_row(row, x + first, (y + iy as f64 + first) * step_y);
+        let (mut lifting, mut sources) = (0.0, Cow::Borrowed(&self.source[..]));
+        if passes::least(&self.source) < 0.0 {
+            lifting = -sums::sums(&self.source, &self.source, |q, _| [q.min(0.0)])[0];
+            sources = self.source.iter().map(|q| q.max(0.0)).collect();
         }
+        let moments = Moments::of(&sources, source.cells_x, corner, step_y);
         let moments = moments.of_all_copies(grid);
         let lift_m = grid.copies() as f64 * lifting * Influence::new(grid).coefficient_m(0, 0);
         let bounds = &mut self.outside_bounds;
@@ -321,9 +313,7 @@ impl HalfSpace {
         let scratch = &mut self.scratches.convolution;
         self.operator.apply(&sources, &mut gap_m, scratch)?;
         work.convolutions += 1;
-        for (gap, own) in gap_m.iter_mut().zip(&self.gap_m) {
-            *gap += own;
-        }
+        passes::add(&mut gap_m, &self.gap_m);
         Ok(gap_m)
     }
 }
