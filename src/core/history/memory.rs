@@ -206,7 +206,7 @@ struct Fading<'s> {
 impl Fields for Fading<'_> {
     fn cut(self, at: usize) -> (Self, Self) {
         let weights = self.weights;
-        let (values, rest) = self.values.split_at_mut(at.min(self.values.len()));
+        let (values, rest) = self.values.cut(at);
         let piece = |values| Self { values, weights };
         (piece(values), piece(rest))
     }

@@ -72,20 +72,26 @@ fn stay_awake() {
     IS_LOOKING.set(false);
 }
 
-/// Fields of one length, which can be cut before a place of all.
+/// Fields of one length, which can be cut before a place of all; an empty one is none.
 pub(crate) trait Fields: Send + Sized {
     fn cut(self, at: usize) -> (Self, Self);
 }
 
 impl<T: Sync> Fields for &[T] {
     fn cut(self, at: usize) -> (Self, Self) {
-        self.split_at(at)
+        match self.is_empty() {
+            true => (self, self),
+            false => self.split_at(at),
+        }
     }
 }
 
 impl<T: Send> Fields for &mut [T] {
     fn cut(self, at: usize) -> (Self, Self) {
-        self.split_at_mut(at)
+        match self.is_empty() {
+            true => (self, Self::default()),
+            false => self.split_at_mut(at),
+        }
     }
 }
 
@@ -206,6 +212,16 @@ mod tests {
                 assert!(met.iter().all(|met| *met == 1), "{threads} {length}");
             }
         }
+    }
+
+    #[test]
+    fn rows_of_several_fields_are_cut_at_one_place_and_what_is_none_stays_so() {
+        let mut values: Vec<usize> = (0..12).collect();
+        let mut parts = values.chunks_exact_mut(4);
+        let fields: [&mut [usize]; 5] = std::array::from_fn(|_| parts.next().unwrap_or_default());
+        let (Rows(before, _), Rows(after, _)) = Rows(fields, 2).cut(1);
+        assert_eq!(before.concat(), [0, 1, 4, 5, 8, 9]);
+        assert_eq!(after.concat(), [2, 3, 6, 7, 10, 11]);
     }
 
     #[test]

@@ -3,7 +3,9 @@
 //! Work is halved as long as there are lanes for more threads; whoever of the pool is idle takes a half. Outside a pool, in a
 //! pool of one thread and on small grids all stays on the thread that asked: there, waking another costs more than it saves.
 
-use crate::numerics::threads::both;
+use std::ops::Range;
+
+use crate::numerics::threads::{Fields, both};
 
 /// Panels into which columns are split at most: more threads than this cannot share one product.
 pub(super) const PANELS: usize = 8;
@@ -24,54 +26,27 @@ pub(super) fn threads(cells: usize) -> usize {
     }
 }
 
-/// The same rows of every panel.
-pub(super) struct Panels<'a, T>([&'a mut [T]; PANELS]);
-
-impl<'a, T> Panels<'a, T> {
-    pub(super) fn new(mut panels: impl Iterator<Item = &'a mut [T]>) -> Self {
-        Self(std::array::from_fn(|_| panels.next().unwrap_or_default()))
-    }
-
-    /// The elements of every panel before a place, and from it on.
-    pub(super) fn split_at(self, at: usize) -> (Self, Self) {
-        let mut rest = <[&mut [T]; PANELS]>::default();
-        let mut rests = rest.iter_mut();
-        let first = self.0.map(|panel| {
-            let (before, after) = panel.split_at_mut(at.min(panel.len()));
-            if let Some(rest) = rests.next() {
-                *rest = after;
-            }
-            before
-        });
-        (Self(first), Self(rest))
-    }
-
-    pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = &mut [T]> {
-        self.0.iter_mut().map(|panel| &mut **panel)
-    }
-}
-
-/// Does `length` pieces of work, in as many parts as there are lanes. `split` cuts the work before a piece.
-pub(super) fn in_parts<W: Send, L: Send, E: Send>(
-    work: W,
-    length: usize,
+/// Does pieces of work on fields counted in them, in as many parts as there are lanes.
+pub(super) fn in_parts<F: Fields, L: Send, E: Send>(
+    pieces: Range<usize>,
+    fields: F,
     lanes: &mut [L],
-    split: impl Fn(W, usize) -> (W, W) + Copy + Send + Sync,
-    leaf: impl Fn(W, &mut L) -> Result<(), E> + Copy + Send + Sync,
+    leaf: impl Fn(Range<usize>, F, &mut L) -> Result<(), E> + Copy + Send + Sync,
 ) -> Result<(), E> {
-    if lanes.len() > 1 && length > 1 {
+    if lanes.len() > 1 && pieces.len() > 1 {
         let half = lanes.len() / 2;
-        let at = length * half / lanes.len();
+        let at = pieces.len() * half / lanes.len();
+        let middle = pieces.start + at;
         let (lanes, others) = lanes.split_at_mut(half);
-        let (work, rest) = split(work, at);
+        let (fields, rest) = fields.cut(at);
         let (a, b) = both(
-            || in_parts(work, at, lanes, split, leaf),
-            || in_parts(rest, length - at, others, split, leaf),
+            || in_parts(pieces.start..middle, fields, lanes, leaf),
+            || in_parts(middle..pieces.end, rest, others, leaf),
         );
         return a.and(b);
     }
     match lanes.first_mut() {
-        Some(lane) => leaf(work, lane),
+        Some(lane) => leaf(pieces, fields, lane),
         None => Ok(()),
     }
 }
@@ -87,30 +62,28 @@ mod tests {
                 let mut pieces = vec![0; length];
                 let mut lanes = vec![0_usize; lanes];
                 in_parts(
+                    0..length,
                     &mut pieces[..],
-                    length,
                     &mut lanes,
-                    |pieces, at| pieces.split_at_mut(at),
-                    |pieces, lane| {
+                    |numbers, pieces, lane| {
+                        assert_eq!(numbers.len(), pieces.len());
                         *lane += pieces.len();
-                        pieces.iter_mut().for_each(|piece| *piece += 1);
+                        pieces
+                            .iter_mut()
+                            .zip(numbers)
+                            .for_each(|(piece, number)| *piece += 1 + number);
                         Ok::<(), ()>(())
                     },
                 )
                 .unwrap();
-                assert!(pieces.iter().all(|&piece| piece == 1));
+                assert!(
+                    pieces
+                        .iter()
+                        .enumerate()
+                        .all(|(number, &piece)| piece == 1 + number)
+                );
                 assert_eq!(lanes.iter().sum::<usize>(), length);
             }
         }
-    }
-
-    #[test]
-    fn panels_are_cut_at_the_same_place() {
-        let mut values: Vec<usize> = (0..12).collect();
-        let panels = Panels::new(values.chunks_exact_mut(4));
-        let (mut before, mut after) = panels.split_at(1);
-        let firsts: Vec<usize> = before.iter_mut().flatten().map(|v| *v).collect();
-        assert_eq!(firsts, [0, 4, 8]);
-        assert_eq!(after.iter_mut().flatten().count(), 9);
     }
 }

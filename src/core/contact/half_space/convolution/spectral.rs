@@ -16,7 +16,8 @@ use realfft::FftError;
 use super::super::grid::Grid;
 use super::ConvolutionError;
 use super::length::conflict_free_stride;
-use super::shared::{self, Panels, in_parts};
+use super::shared::{self, PANELS, in_parts};
+use crate::numerics::threads::{Fields, Rows};
 
 /// Nothing, as a complex number.
 pub(super) fn zero<T: Precision>() -> Complex<T> {
@@ -261,8 +262,9 @@ impl<T: Precision> SpectralProduct<T> {
             return Ok(());
         };
         let (spectra, lanes) = (&mut scratch.spectra[..], &mut scratch.lanes[..]);
-        let panels = Panels::new(spectra.chunks_exact_mut(shape.panel()));
-        let (_, panels) = panels.split_at(loaded.start * shape.row_stride);
+        let mut panels = spectra.chunks_exact_mut(shape.panel());
+        let panels = std::array::from_fn(|_| panels.next().unwrap_or_default());
+        let (_, panels) = Rows(panels, shape.row_stride).cut(loaded.start);
         self.transform_rows(&field[cells(&loaded)], panels, lanes)?;
         self.multiply_panels(spectra, &loaded, &wanted, lanes)?;
         Ok(self.recover_rows(spectra, wanted.start, &mut image[cells(&wanted)], lanes)?)
@@ -272,21 +274,17 @@ impl<T: Precision> SpectralProduct<T> {
     fn transform_rows(
         &self,
         field: &[T],
-        panels: Panels<'_, Complex<T>>,
+        panels: Rows<[&mut [Complex<T>]; PANELS]>,
         lanes: &mut [Lane<T>],
     ) -> Result<(), FftError> {
         let shape = &self.shape;
         let rows = field.len() / shape.cells_x;
+        let fields = (Rows(field, shape.cells_x), panels);
         in_parts(
-            (field, panels),
-            rows,
+            0..rows,
+            fields,
             lanes,
-            |(field, panels), at| {
-                let (field, rest) = field.split_at(at * shape.cells_x);
-                let (panels, others) = panels.split_at(at * shape.row_stride);
-                ((field, panels), (rest, others))
-            },
-            |(field, mut panels), lane| {
+            |_, (Rows(field, _), Rows(mut panels, _)), lane| {
                 let bins = &mut lane.bins[..shape.columns];
                 for (iy, row) in field.chunks_exact(shape.cells_x).enumerate() {
                     (self.row).forward(row, bins, &mut lane.real, &mut lane.work)?;
@@ -311,15 +309,11 @@ impl<T: Precision> SpectralProduct<T> {
         let panel = self.shape.panel();
         let panels = spectra.len() / panel.max(1);
         in_parts(
-            (0, spectra),
-            panels,
+            0..panels,
+            Rows(spectra, panel),
             lanes,
-            |(first, panels), at| {
-                let (panels, others) = panels.split_at_mut(at * panel);
-                ((first, panels), (first + at, others))
-            },
-            |(first, panels), lane| {
-                for (index, panel) in (first..).zip(panels.chunks_exact_mut(panel)) {
+            |indices, Rows(panels, _), lane| {
+                for (index, panel) in indices.zip(panels.chunks_exact_mut(panel)) {
                     self.multiply_columns(index, panel, loaded, wanted, lane);
                 }
                 Ok(())
@@ -377,16 +371,12 @@ impl<T: Precision> SpectralProduct<T> {
         let shape = &self.shape;
         let rows = image.len() / shape.cells_x;
         in_parts(
-            (first, image),
-            rows,
+            first..first + rows,
+            Rows(image, shape.cells_x),
             lanes,
-            |(first, image), at| {
-                let (image, rest) = image.split_at_mut(at * shape.cells_x);
-                ((first, image), (first + at, rest))
-            },
-            |(first, image), lane| {
+            |rows, Rows(image, _), lane| {
                 let bins = &mut lane.bins[..shape.columns];
-                for (iy, row) in (first..).zip(image.chunks_exact_mut(shape.cells_x)) {
+                for (iy, row) in rows.zip(image.chunks_exact_mut(shape.cells_x)) {
                     let panels = spectra.chunks_exact(shape.panel());
                     for (part, panel) in bins.chunks_mut(shape.panel_columns).zip(panels) {
                         part.copy_from_slice(&panel[iy * shape.row_stride..][..part.len()]);
