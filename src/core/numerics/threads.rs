@@ -154,6 +154,24 @@ pub(crate) fn in_rows<F: Fields>(
     halve(0..rows, piece.max(1), fields, &leaf);
 }
 
+/// Does something to every item with the value of the same place; the items may take long, so that each is a piece of its own.
+pub(crate) fn each_item<T: Send, V: Send>(
+    items: &mut [T],
+    values: &mut [V],
+    leaf: impl Fn(usize, &mut T, &mut V) + Sync,
+) {
+    halve(
+        0..items.len(),
+        1,
+        (items, values),
+        &|numbers, (items, values)| {
+            for ((number, item), value) in numbers.zip(items).zip(values) {
+                leaf(number, item, value);
+            }
+        },
+    );
+}
+
 fn halve<F: Fields>(
     values: Range<usize>,
     piece: usize,

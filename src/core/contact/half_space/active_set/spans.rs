@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use super::super::convolution::SQUARE;
 use crate::contact::sums::sum;
-use crate::numerics::threads::{Fields, both};
+use crate::numerics::threads::{Fields, both, each_item};
 
 /// Blocks of a large window at most.
 const BLOCKS: usize = 8;
@@ -82,37 +82,14 @@ pub(in super::super) fn over_blocks<const N: usize>(
 ) -> OfBlocks<N> {
     let cut = Cut::new(window, cells_x);
     let (mut values, blocks) = ([[0.0; N]; BLOCKS], cut.blocks());
-    in_halves(
-        0,
-        &mut [(); BLOCKS][..blocks],
-        &mut values,
-        &|number, (), value| {
+    each_item(
+        &mut values[..blocks],
+        &mut [(); BLOCKS],
+        |number, value, ()| {
             *value = leaf(cut.cells(number));
         },
     );
     OfBlocks { values, blocks }
-}
-
-/// Does something to every item with the value of the same place; idle threads of the pool take a half.
-fn in_halves<T: Send, V: Send>(
-    first: usize,
-    items: &mut [T],
-    values: &mut [V],
-    leaf: &(impl Fn(usize, &mut T, &mut V) + Sync),
-) {
-    if items.len() < 2 {
-        for (item, value) in items.iter_mut().zip(values) {
-            leaf(first, item, value);
-        }
-        return;
-    }
-    let middle = items.len() / 2;
-    let (items, other_items) = items.split_at_mut(middle);
-    let (values, other_values) = values.split_at_mut(middle);
-    both(
-        || in_halves(first, items, values, leaf),
-        || in_halves(first + middle, other_items, other_values, leaf),
-    );
 }
 
 /// A run: its cells in the window and in a field of the contact, counted from the beginning of its block.
@@ -185,7 +162,7 @@ impl Spans {
         let (mut values, blocks) = ([[0.0; N]; BLOCKS], cut.blocks());
         self.cut = cut;
         self.found.resize_with(blocks, Found::default);
-        in_halves(0, &mut self.found, &mut values, &|number, found, value| {
+        each_item(&mut self.found, &mut values, |number, found, value| {
             found.runs.clear();
             found.cells = 0;
             *value = leaf(cut.cells(number), found);
@@ -280,10 +257,13 @@ impl Spans {
         let mut parts: [&mut [f32]; BLOCKS] =
             std::array::from_fn(|_| parts.next().unwrap_or_default());
         let blocks = self.found.len();
-        let nothing = &mut [(); BLOCKS][..blocks];
-        in_halves(0, &mut parts[..blocks], nothing, &|number, part, ()| {
-            leaf(&self.block(number), part);
-        });
+        each_item(
+            &mut parts[..blocks],
+            &mut [(); BLOCKS],
+            |number, part, ()| {
+                leaf(&self.block(number), part);
+            },
+        );
     }
 
     /// Writes a field of the window into one of the contact, and sums it.
